@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# CUDA is compiled whenever CMake finds a toolkit, into the same program. GF_CUDA=REQUIRED: an error if there is none.
+set(GF_HAVE_CUDA OFF)
+set(why_no_cuda "switched off")
+if(GF_CUDA AND GF_SANITIZE)
+    set(why_no_cuda "not with sanitizers")
+elseif(GF_CUDA)
+    set(why_no_cuda "no toolkit found; its nvcc must be on the PATH, or named by CMAKE_CUDA_COMPILER")
+    include(CheckLanguage)
+    check_language(CUDA)
+    if(CMAKE_CUDA_COMPILER)
+        if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+            set(CMAKE_CUDA_ARCHITECTURES 80-real 90)  # A100, H100/H200; PTX for what comes later
+        endif()
+        enable_language(CUDA)
+        if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12)
+            set(why_no_cuda "toolkit ${CMAKE_CUDA_COMPILER_VERSION} is older than 12, the first with C++20")
+        else()
+            find_package(CUDAToolkit REQUIRED)
+            if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 does not know that nvcc 12 has C++20
+                set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
+            endif()
+            set(CMAKE_CUDA_STANDARD 20)
+            set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+            set(CMAKE_CUDA_EXTENSIONS OFF)
+            set(GF_HAVE_CUDA ON)
+            message(STATUS "CUDA ${CUDAToolkit_VERSION}: kernels are compiled for ${CMAKE_CUDA_ARCHITECTURES}")
+        endif()
+    endif()
+endif()
+if(NOT GF_HAVE_CUDA)
+    if(GF_CUDA STREQUAL "REQUIRED")
+        message(FATAL_ERROR "GF_CUDA is REQUIRED, but CUDA: ${why_no_cuda}")
+    endif()
+    message(STATUS "CUDA: ${why_no_cuda}; kernels are compiled for the CPU only")
+endif()
+
+# gf_files_that_launch(out FILES...): those of FILES that call parallel_for or its like. Compiled as C++ beside CUDA, such
+# a file would not only miss the device: where it shares a kernel with a CUDA file, the linker keeps either version.
+function(gf_files_that_launch out)
+    set(found)
+    foreach(file IN LISTS ARGN)
+        file(STRINGS ${file} calls REGEX "[^_a-z]parallel_(for|sum|max|reduce)[(<]" LIMIT_COUNT 1)
+        if(calls)
+            list(APPEND found ${file})
+        endif()
+    endforeach()
+    set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# gf_compile_as_kernels(target FILES...): as CUDA, when there is a toolkit.
+function(gf_compile_as_kernels target)
+    if(GF_HAVE_CUDA AND ARGN)
+        set_source_files_properties(${ARGN} PROPERTIES LANGUAGE CUDA)
+        target_compile_options(${target} PRIVATE
+            "$<$<COMPILE_LANGUAGE:CUDA>:--fmad=false;--expt-relaxed-constexpr;-diag-suppress=20012;-Xcompiler=-ffp-contract=off,-fno-math-errno,-fno-trapping-math,-Wall,-Wextra,-Werror>")
+        target_link_libraries(${target} PUBLIC CUDA::cudart_static)
+    endif()
+endfunction()
+
+# gf_kernel_library(name SOURCES... [KERNELS ...]): a static library; files after KERNELS launch kernels and are compiled
+# as CUDA when there is a toolkit.
+function(gf_kernel_library name)
+    cmake_parse_arguments(ARG "" "" "KERNELS;SOURCES" ${ARGN})
+    gf_files_that_launch(launching ${ARG_SOURCES})
+    if(launching)
+        message(FATAL_ERROR "These files launch kernels; please add them to the list of kernels in src/CMakeLists.txt: ${launching}")
+    endif()
+    add_library(${name} STATIC ${ARG_SOURCES} ${ARG_KERNELS})
+    target_link_libraries(${name} PUBLIC gf_options)
+    gf_compile_as_kernels(${name} ${ARG_KERNELS})
+endfunction()

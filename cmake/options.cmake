@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What every target is compiled with.
+add_library(gf_options INTERFACE)
+target_include_directories(gf_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_compile_definitions(gf_options INTERFACE "$<$<CONFIG:Debug>:GF_DEBUG;_GLIBCXX_ASSERTIONS>")
+
+# Same bits everywhere: no contraction to fused multiply-add, no reassociation. sqrt need not set errno, so that it is
+# one instruction.
+set(GF_HOST_FLAGS -ffp-contract=off -fno-math-errno -fno-trapping-math)
+set(GF_WARNINGS -Wall -Wextra -Werror -Wshadow -Wpedantic -Wno-error=deprecated-declarations)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    list(APPEND GF_WARNINGS -Wno-restrict)  # false alarm on "literal" + std::string, gcc bug 105651
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    list(REMOVE_ITEM GF_HOST_FLAGS -fno-trapping-math)  # clang 14 has no such default; the flag changes nothing there
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    list(APPEND GF_WARNINGS -Wno-restrict)  # GCC bug 105651: false reports on std::string operator+ with -O3
+endif()
+target_compile_options(gf_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${GF_HOST_FLAGS};${GF_WARNINGS}>)
+
+if(GF_SANITIZE)
+    target_compile_options(gf_options INTERFACE
+        $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${GF_SANITIZE};-fno-omit-frame-pointer;-fno-sanitize-recover=all>)
+    target_link_options(gf_options INTERFACE -fsanitize=${GF_SANITIZE})
+endif()
+
+find_package(Threads REQUIRED)
+target_link_libraries(gf_options INTERFACE Threads::Threads)

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/prepare.h"
+
+#include "io/input.h"
+#include "motion/time_step.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+namespace grainfrac {
+
+Case load_case(const Options& o)
+{
+    std::map<std::string, SourcePlace> places;
+    try {
+        return read_case(o.file, o.overrides, places);
+    } catch (const InputError& e) {
+        fmt::print(stderr, "{}", render_problems(e.problems, places, o.file));
+        throw ReportedInputError{};
+    }
+}
+
+void report(const InputError& e, const Case& c)
+{
+    fmt::print(stderr, "{}", render_problems(e.problems, c.places, c.file));
+}
+
+Built build_case(const Case& c, Device device)
+{
+    try {
+        return build(c, device);
+    } catch (const InputError& e) {
+        report(e, c);
+        throw ReportedInputError{};
+    }
+}
+
+ChosenStep choose_time_step(const Case& c, const Model& model, const State& state)
+{
+    const TimeStepBound bound = time_step_bound(model, state);
+    ChosenStep s{0.0, bound.with_damping, bound.limiter};
+    if (bound.body < 0) {
+        // Nothing acts yet (free flight): the stiffest contact law on the lightest grain with its point area.
+        double largest = 0.0;
+        for (int i = 0; i < state.bodies.size(); ++i) {
+            if (state.bodies.inverse_mass[i] == 0.0) continue;
+            for (const LinearContact& law : model.contact_laws.host()) {
+                const double area = 4.0 * model.shapes.point_area[state.bodies.shape[i]];
+                largest = std::fmax(largest, law.area_stiffness * law.unload_factor * area * state.bodies.inverse_mass[i]);
+            }
+        }
+        s.limiter = "contact laws (nothing touches yet)";
+        if (largest > 0.0) s.critical = 0.5 / std::sqrt(largest);
+    }
+    if (c.control.time_step) {
+        if (s.critical > 0.0 && *c.control.time_step > s.critical) {
+            throw InputError("control.time_step", fmt::format("must be <= {:.4g} s, the stability limit ({})", s.critical, s.limiter));
+        }
+        s.dt = *c.control.time_step;
+    } else {
+        if (!(s.critical > 0.0)) throw InputError("control.time_step", "missing; required here, since nothing in the model bounds the step");
+        s.dt = c.control.time_step_safety * s.critical;
+    }
+    return s;
+}
+
+std::string read_text(const std::string& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in) throw std::runtime_error(fmt::format("cannot read \"{}\"", file));
+    return text.str();
+}
+
+}  // namespace grainfrac

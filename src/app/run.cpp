@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/prepare.h"
+#include "app/signals.h"
+#include "app/simulation.h"
+#include "app/summary.h"
+#include "app/version.h"
+#include "gpu/device.h"
+#include "gpu/thread_pool.h"
+#include "io/input.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+
+namespace grainfrac {
+
+namespace {
+
+/// FNV-1a of the resolved input: two runs with the same hash simulate the same thing.
+std::string text_hash(const std::string& text)
+{
+    std::uint64_t h = 14695981039346656037ULL;
+    for (const char ch : text) h = (h ^ static_cast<unsigned char>(ch)) * 1099511628211ULL;
+    return fmt::format("{:016x}", h);
+}
+
+void open_log(const std::filesystem::path& folder, const Options& o)
+{
+    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "run.log").string(), true);
+    auto screen = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+    screen->set_level(o.quiet ? spdlog::level::err : (o.verbose ? spdlog::level::debug : spdlog::level::warn));
+    screen->set_pattern("%l: %v");
+    auto logger = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, screen});
+    logger->flush_on(spdlog::level::info);
+    spdlog::set_default_logger(logger);
+}
+
+void warn_about_loading(const Case& c, const Built& b, const RunRecord& record)
+{
+    if (c.test.kind == "brazilian" && b.experiment.quasi_static_speed > 0.0 && c.test.platen_speed > b.experiment.quasi_static_speed) {
+        spdlog::warn("platen speed {:.3g} m/s is above the quasi-static guide 0.01 sigma_t/(rho c_0) = {:.3g} m/s", c.test.platen_speed,
+                     b.experiment.quasi_static_speed);
+    }
+    if (record.kinetic_over_elastic > 1e-2) {
+        spdlog::warn("kinetic energy reached {:.2g} of the elastic energy before the peak (quasi-static: < 0.01); load more slowly",
+                     record.kinetic_over_elastic);
+    }
+}
+
+void print_outcome(const RunFacts& facts, const Built& b, const RunRecord& record, const Ending& ending, const std::filesystem::path& out)
+{
+    const Ledger e = energy_ledger(b.model, b.state);
+    fmt::print("{}: {} ({} steps, {:.4g} s simulated, {:.1f} s run on {})\n", ending.code == 0 ? "done" : "stopped", ending.reason, b.state.step,
+               b.state.time, record.phases.steps + record.phases.output, facts.device);
+    if (record.peak_load > 0.0) {
+        fmt::print("peak load {:.5g} N at {:.4g} m", record.peak_load, record.peak_displacement);
+        if (record.peak_stress > 0.0) fmt::print(", nominal strength {:.4g} MPa", 1e-6 * record.peak_stress);
+        fmt::print("\n");
+    }
+    const HistoryRow& last = record.rows.back();
+    fmt::print("broken faces: {} in tension, {} in shear; {} fragments\n", last.broken_bonds_tension, last.broken_bonds_shear, last.fragments);
+    fmt::print("energy account: off by {:.1e} of the largest term\n", e.relative_error());
+    fmt::print("results: {}\n", out.string());
+}
+
+}  // namespace
+
+int run_command(const Options& o)
+{
+    const Case c = load_case(o);
+    const std::string input_text = read_text(o.file);
+    const Device device = parse_device(o.device);
+    const auto before = std::chrono::steady_clock::now();
+    Built built = build_case(c, device);
+    const std::filesystem::path out = o.out.empty() ? std::filesystem::path(o.file).stem().string() + ".out" : o.out;
+
+    RunRecord record;
+    RunFacts facts{GRAINFRAC_VERSION, "", to_string(device), c.simulation.seed, threads(), c.test.kind};
+    const std::string resolved = to_toml(c);
+    facts.input_hash = text_hash(resolved);
+    start_check(c, built);
+
+    ResultFolder folder(out, o.force);
+    folder.begin(facts, input_text, resolved);
+    open_log(out, o);
+    spdlog::info("grainfrac {}: {} bodies, {} interfaces with {} points, {} parallel bonds, device {}, {} threads", GRAINFRAC_VERSION,
+                 built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(), built.state.parallels.size(),
+                 to_string(device), threads());
+    record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+
+    watch_signals();
+    SnapshotFields fields;
+    const Ending ending = simulate(c, o, built, folder, record, fields);
+    if (ending.code == exit_code::unstable) spdlog::error("{}", ending.reason);
+    warn_about_loading(c, built, record);
+    try {
+        folder.finish(summary_json(facts, c, built, record, ending, fields), built.model, built.state, fields, !o.no_report);
+    } catch (const PlotError& e) {
+        spdlog::warn("plots: {}", e.what());
+    }
+    spdlog::info("ended: {}", ending.reason);
+    if (!o.quiet) print_outcome(facts, built, record, ending, out);
+    spdlog::shutdown();
+    return ending.code;
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/simulation.h"
+
+#include "app/progress.h"
+#include "app/signals.h"
+#include "contact/find_contacts.h"
+#include "fracture/clusters.h"
+#include "fracture/grain_stress.h"
+#include "model/validate.h"
+#include "motion/step.h"
+#include "motion/time_step.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+namespace grainfrac {
+
+namespace {
+
+/// History rows of a run whose interval the user left open.
+constexpr double automatic_rows = 2000.0;
+/// Snapshots of a run whose number the user left open.
+constexpr double automatic_snapshots = 20.0;
+/// The time step is checked against the present stiffness after this many steps: contacts come slowly compared to it.
+constexpr int steps_between_checks = 500;
+/// A run whose energy account is off by this share has gone wrong: a stable one stays below 1e-3.
+constexpr double most_energy_error = 0.1;
+/// Kinetic over elastic energy counts from this share of the peak load: at the very start both are nothing.
+constexpr double monitored_load = 0.1;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t)
+{
+    return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+class Simulation {
+public:
+    Simulation(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record, SnapshotFields& fields)
+        : case_(c), model_(built.model), state_(built.state), experiment_(built.experiment), folder_(folder), record_(record),
+          fields_(fields), progress_(o.quiet)
+    {
+    }
+
+    Ending run()
+    {
+        start(model_, state_);
+        choose_step();
+        choose_intervals();
+        record_.first_momentum = total_momentum(model_, state_);
+        last_checkpoint_ = Clock::now();
+        Ending ending{exit_code::done, "all stages done"};
+        for (const Stage& stage : experiment_.stages) {
+            spdlog::info("stage \"{}\"", stage.name);
+            begin_stage(stage, model_, state_);
+            stage_start_ = state_.time;
+            stage_displacement_ = measure(experiment_, model_, state_).displacement;
+            stage_peak_ = 0.0;
+            if (state_.step == 0) record_row(stage);
+            ending = run_stage(stage);
+            if (!finished_stage_) break;
+            if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time) break;
+        }
+        if (ending.code != exit_code::unstable) last_snapshot(experiment_.stages.back());
+        record_.last_momentum = total_momentum(model_, state_);
+        record_.time_step = dt_;
+        progress_.finish(progress(experiment_.stages.back()));
+        return ending;
+    }
+
+private:
+    void choose_step()
+    {
+        const ChosenStep s = choose_time_step(case_, model_, state_);
+        dt_ = s.dt;
+        record_.critical_step = s.critical;
+        record_.limiter = s.limiter;
+        spdlog::info("time step {:.4g} s, stability limit {:.4g} s ({})", dt_, s.critical, s.limiter);
+    }
+
+    void choose_intervals()
+    {
+        const double expected = experiment_.expected_duration;
+        history_ = case_.output.history.value_or(expected > 0.0 ? std::max(expected / automatic_rows, dt_) : 100.0 * dt_);
+        const double count = case_.output.snapshots ? static_cast<double>(*case_.output.snapshots) : automatic_snapshots;
+        every_ = case_.output.every.value_or(expected > 0.0 ? expected / count : 5000.0 * dt_);
+        record_.history_interval = history_;
+        record_.snapshot_interval = every_;
+    }
+
+    Ending run_stage(const Stage& stage)
+    {
+        finished_stage_ = false;
+        while (true) {
+            if (state_.step % steps_between_checks == 0 && state_.step > 0) shorten_step_if_needed();
+            const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
+            const auto before = Clock::now();
+            step(model_, state_, dt_, snapshot);
+            record_.phases.steps += seconds_since(before);
+            if (snapshot) write_snapshot();
+            if (state_.time + 0.5 * dt_ >= next_history_) {
+                record_row(stage);
+                if (const std::string why = why_unstable(); !why.empty()) return {exit_code::unstable, "unstable: " + why};
+                if (const std::string why = why_ended(stage); !why.empty()) {
+                    finished_stage_ = true;
+                    spdlog::info("stage \"{}\" ended: {}", stage.name, why);
+                    return {exit_code::done, why};
+                }
+                progress_.update(progress(stage));
+            }
+            if (const int signal = pending_signal(); signal != 0) {
+                checkpoint();
+                return {128 + signal, signal == 2 ? "interrupted by SIGINT" : "terminated by SIGTERM"};
+            }
+            if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint) checkpoint();
+        }
+    }
+
+    void shorten_step_if_needed()
+    {
+        if (case_.control.time_step) return;
+        const TimeStepBound bound = time_step_bound(model_, state_);
+        if (bound.body < 0) return;
+        const double allowed = case_.control.time_step_safety * bound.with_damping;
+        if (allowed >= dt_) return;
+        spdlog::info("step {}: time step {:.4g} -> {:.4g} s ({})", state_.step, dt_, allowed, bound.limiter);
+        dt_ = allowed;
+        record_.critical_step = bound.with_damping;
+        record_.limiter = bound.limiter;
+    }
+
+    void record_row(const Stage&)
+    {
+        const auto before = Clock::now();
+        const Measurement m = measure(experiment_, model_, state_);
+        HistoryRow r;
+        r.step = state_.step;
+        r.time = state_.time;
+        r.displacement = m.displacement;
+        r.load = m.load;
+        r.nominal_strain = m.strain;
+        r.nominal_stress = m.stress;
+        r.energy = energy_ledger(model_, state_);
+        r.unbalanced_force_ratio = unbalanced_force_ratio(state_);
+        r.platen_imbalance = m.platen_imbalance;
+        count_broken(r);
+        folder_.append_history(r);
+        record_.rows.push_back(r);
+        if (m.load > record_.peak_load) {
+            record_.peak_load = m.load;
+            record_.peak_stress = m.stress;
+            record_.peak_time = r.time;
+            record_.peak_displacement = m.displacement;
+            record_.imbalance_at_peak = m.platen_imbalance;
+        }
+        stage_peak_ = std::max(stage_peak_, m.load);
+        next_history_ = state_.time + history_;
+        record_.phases.output += seconds_since(before);
+    }
+
+    void count_broken(HistoryRow& r)
+    {
+        const InterfaceBonds& f = state_.interfaces;
+        for (int i = 0; i < f.size(); ++i) {
+            if (f.failure_time[i] < 0.0) continue;
+            (f.shear_share[i] < 0.5 * f.area[i] ? r.broken_bonds_tension : r.broken_bonds_shear) += 1;
+        }
+        for (int i = 0; i < state_.parallels.size(); ++i) {
+            if (state_.parallels.cause[i] == static_cast<int>(BondCause::tension)) ++r.broken_bonds_tension;
+            if (state_.parallels.cause[i] == static_cast<int>(BondCause::shear)) ++r.broken_bonds_shear;
+        }
+        const std::int64_t broken = r.broken_bonds_tension + r.broken_bonds_shear;
+        if (broken != broken_ || record_.rows.empty()) {
+            const std::vector<std::int32_t> cluster = bonded_clusters(state_);
+            fragments_ = static_cast<std::int64_t>(std::set<std::int32_t>(cluster.begin(), cluster.end()).size()) -
+                         (std::find(cluster.begin(), cluster.end(), -1) != cluster.end() ? 1 : 0);
+            broken_ = broken;
+        }
+        r.fragments = fragments_;
+    }
+
+    std::string why_unstable() const
+    {
+        if (const int pair = penetrating_pair(model_, state_); pair >= 0) {
+            return fmt::format("the cores of bodies {} and {} penetrate; the contact is too soft or something moves too fast: raise "
+                               "contacts.normal_stiffness or lower the speed",
+                               state_.bodies.id[state_.contacts.a[pair]], state_.bodies.id[state_.contacts.b[pair]]);
+        }
+        const Ledger& e = record_.rows.back().energy;
+        if (!std::isfinite(e.kinetic) || !std::isfinite(e.residual())) {
+            const std::string what = why_not_valid(model_, state_);
+            return fmt::format("{}; lower control.time_step_safety", what.empty() ? "an energy is not finite" : what);
+        }
+        if (state_.step > 100 && e.relative_error() > most_energy_error) {
+            return fmt::format("the energy account is off by {:.0f} %; lower control.time_step_safety", 100.0 * e.relative_error());
+        }
+        return {};
+    }
+
+    std::string why_ended(const Stage& s) const
+    {
+        const HistoryRow& r = record_.rows.back();
+        if (s.duration && state_.time - stage_start_ >= *s.duration) return fmt::format("time {:.4g} s reached", state_.time);
+        if (s.displacement && r.displacement - stage_displacement_ >= *s.displacement) {
+            return fmt::format("displacement {:.4g} m reached", r.displacement);
+        }
+        if (s.load_drop && broken_or_damaged() && r.load < (1.0 - *s.load_drop) * stage_peak_) {
+            return fmt::format("load dropped by {:.0f} % from its peak {:.5g} N", 100.0 * *s.load_drop, stage_peak_);
+        }
+        if (s.unbalanced_force_ratio && state_.time > stage_start_ + s.ramp && r.unbalanced_force_ratio < *s.unbalanced_force_ratio) {
+            return fmt::format("unbalanced force ratio below {:.2g}", *s.unbalanced_force_ratio);
+        }
+        if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time) return "stop.time reached";
+        return {};
+    }
+    /// A load drop counts only once something failed: waves make the load of a platen dip at first touch.
+    bool broken_or_damaged() const { return broken_ > 0; }
+
+    ProgressState progress(const Stage& s) const
+    {
+        ProgressState p;
+        p.stage = s.name;
+        p.step = state_.step;
+        p.time = state_.time;
+        if (experiment_.expected_duration > 0.0) p.done = std::min(0.99, state_.time / experiment_.expected_duration);
+        if (!record_.rows.empty()) {
+            p.load = record_.rows.back().load;
+            p.fragments = record_.rows.back().fragments;
+        }
+        p.broken = broken_;
+        return p;
+    }
+
+    void write_snapshot()
+    {
+        const auto before = Clock::now();
+        fields_.stress = grain_stress(model_, state_);
+        fields_.cluster = bonded_clusters(state_);
+        folder_.write_snapshot(model_, state_, fields_, case_.output.contacts);
+        next_snapshot_ = state_.time + every_;
+        record_.phases.output += seconds_since(before);
+    }
+
+    /// The state in which the run ended is always shown: one more step, which also gathers stresses.
+    void last_snapshot(const Stage& stage)
+    {
+        step(model_, state_, dt_, true);
+        record_row(stage);
+        write_snapshot();
+    }
+
+    void checkpoint()
+    {
+        folder_.write_checkpoint(model_, state_);
+        last_checkpoint_ = Clock::now();
+    }
+
+    const Case& case_;
+    Model& model_;
+    State& state_;
+    const Experiment& experiment_;
+    ResultFolder& folder_;
+    RunRecord& record_;
+    SnapshotFields& fields_;
+    Progress progress_;
+    double dt_ = 0.0, history_ = 0.0, every_ = 0.0;
+    double next_history_ = 0.0, next_snapshot_ = 0.0;
+    double stage_start_ = 0.0, stage_displacement_ = 0.0, stage_peak_ = 0.0;
+    bool finished_stage_ = false;
+    std::int64_t broken_ = 0, fragments_ = 0;
+    Clock::time_point last_checkpoint_;
+};
+
+/// From a tenth of the peak load to the peak.
+void monitor_quasi_static(RunRecord& record)
+{
+    for (const HistoryRow& r : record.rows) {
+        if (r.time > record.peak_time) break;
+        const double elastic = r.energy.elastic_bonds + r.energy.elastic_contacts;
+        if (r.load < monitored_load * record.peak_load || elastic <= 0.0) continue;
+        record.kinetic_over_elastic = std::max(record.kinetic_over_elastic, r.energy.kinetic / elastic);
+    }
+}
+
+}  // namespace
+
+Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record, SnapshotFields& last_fields)
+{
+    const Ending ending = Simulation(c, o, built, folder, record, last_fields).run();
+    monitor_quasi_static(record);
+    return ending;
+}
+
+}  // namespace grainfrac

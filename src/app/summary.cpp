@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/summary.h"
+
+#include "model/validate.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sys/resource.h>
+
+namespace grainfrac {
+
+namespace {
+
+using nlohmann::json;
+
+json vector_json(const Vec3& a)
+{
+    return {a.x, a.y, a.z};
+}
+
+Vec3 center_of(const CrackFace& c)
+{
+    Vec3 x;
+    for (const Vec3& p : c.polygon) x += p * (1.0 / static_cast<double>(c.polygon.size()));
+    return x;
+}
+
+json counts(const Built& b)
+{
+    int grains = 0, walls = 0, spheres = 0;
+    for (int i = 0; i < b.state.bodies.size(); ++i) {
+        if (b.state.bodies.inverse_mass[i] == 0.0) ++walls;
+        else if (b.model.grain_shapes[static_cast<std::size_t>(i)].faces.empty()) ++spheres;
+        else ++grains;
+    }
+    return {{"grains", grains},
+            {"spheres", spheres},
+            {"nodes", 0},
+            {"wall_bodies", walls},
+            {"interfaces", b.state.interfaces.size()},
+            {"interface_points", b.state.points.size()},
+            {"parallel_bonds", b.state.parallels.size()},
+            {"bonds", b.state.bond_slots()},
+            {"contact_pairs", b.state.contacts.size()}};
+}
+
+json cracks_json(const std::vector<CrackFace>& cracks, const RunRecord& record)
+{
+    static const char* names[3] = {"intergranular_tension", "intergranular_shear", "intergranular_mixed"};
+    json j;
+    for (const char* name : names) j[name] = {{"number", 0}, {"area_m2", 0.0}};
+    j["transgranular"] = {{"number", 0}, {"area_m2", 0.0}};
+    for (const CrackFace& c : cracks) {
+        json& kind = j[c.mode == 1 ? "transgranular" : names[c.cause]];
+        kind["number"] = kind["number"].get<int>() + 1;
+        kind["area_m2"] = kind["area_m2"].get<double>() + c.area;
+    }
+    if (!cracks.empty()) {
+        const CrackFace& first = cracks.front();
+        j["first"] = {{"time_s", first.time}, {"position_m", vector_json(center_of(first))}, {"before_peak", first.time <= record.peak_time}};
+    }
+    return j;
+}
+
+json fragments_json(const Built& b, const SnapshotFields& fields)
+{
+    std::map<std::int32_t, double> mass;
+    double total = 0.0;
+    for (std::size_t i = 0; i < fields.cluster.size(); ++i) {
+        if (fields.cluster[i] < 0) continue;
+        mass[fields.cluster[i]] += b.state.bodies.mass[static_cast<int>(i)];
+        total += b.state.bodies.mass[static_cast<int>(i)];
+    }
+    json largest = json::array();
+    for (const auto& [cluster, m] : mass) {
+        if (largest.size() < 10) largest.push_back(m / total);
+    }
+    return {{"number", mass.size()}, {"largest_mass_fractions", largest}};
+}
+
+json energy_json(const Ledger& e, const RunRecord& record)
+{
+    double worst = 0.0, worst_before_peak = 0.0;
+    for (const HistoryRow& r : record.rows) {
+        if (r.step == 0 || r.load < 0.1 * record.peak_load) continue;
+        worst = std::max(worst, r.energy.relative_error());
+        if (r.time <= record.peak_time) worst_before_peak = std::max(worst_before_peak, r.energy.relative_error());
+    }
+    return {{"kinetic_J", e.kinetic}, {"elastic_bonds_J", e.elastic_bonds}, {"elastic_contacts_J", e.elastic_contacts},
+            {"fracture_J", e.fracture}, {"friction_J", e.friction}, {"damping_J", e.damping}, {"external_work_J", e.external},
+            {"gravity_work_J", e.gravity}, {"inserted_J", e.inserted}, {"initial_J", e.initial}, {"residual_J", e.residual()},
+            {"relative_error", e.relative_error()}, {"largest_relative_error", worst}, {"largest_relative_error_before_peak", worst_before_peak}};
+}
+
+json quasi_static_json(const Case& c, const Built& b, const RunRecord& record)
+{
+    json j = {{"kinetic_over_elastic_to_peak", record.kinetic_over_elastic},
+              {"platen_imbalance_at_peak", record.imbalance_at_peak},
+              {"recommended_platen_speed_m_per_s", b.experiment.quasi_static_speed}};
+    if (c.test.kind == "brazilian") j["platen_speed_m_per_s"] = c.test.platen_speed;
+    j["fulfilled"] = record.kinetic_over_elastic < 1e-2 && record.imbalance_at_peak < 1e-2;
+    return j;
+}
+
+}  // namespace
+
+std::int64_t peak_memory()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, const RunRecord& record, const Ending& ending,
+                         const SnapshotFields& fields)
+{
+    const Ledger e = energy_ledger(b.model, b.state);
+    json j;
+    j["version"] = facts.version;
+    j["title"] = c.simulation.title;
+    j["input_hash"] = facts.input_hash;
+    j["seed"] = facts.seed;
+    j["device"] = facts.device;
+    j["threads"] = facts.threads;
+    j["exit"] = {{"code", ending.code}, {"reason", ending.reason}};
+    j["counts"] = counts(b);
+    j["time_step"] = {{"dt_s", record.time_step}, {"stability_limit_s", record.critical_step}, {"bounded_by", record.limiter},
+                      {"steps", b.state.step}, {"simulated_time_s", b.state.time}};
+    j["test"] = {{"kind", c.test.kind}, {"peak_load_N", record.peak_load}, {"peak_time_s", record.peak_time},
+                 {"displacement_at_peak_m", record.peak_displacement}};
+    if (b.experiment.specimen.stress_area > 0.0) j["test"]["nominal_strength_Pa"] = record.peak_stress;
+    j["cracks"] = cracks_json(collect_cracks(b.model, b.state), record);
+    j["fragments"] = fragments_json(b, fields);
+    j["energy"] = energy_json(e, record);
+    j["mass_kg"] = record.last_momentum.mass;
+    j["momentum"] = {{"linear_start_kg_m_per_s", vector_json(record.first_momentum.linear)},
+                     {"linear_end_kg_m_per_s", vector_json(record.last_momentum.linear)},
+                     {"angular_start_kg_m2_per_s", vector_json(record.first_momentum.angular)},
+                     {"angular_end_kg_m2_per_s", vector_json(record.last_momentum.angular)}};
+    j["quasi_static"] = quasi_static_json(c, b, record);
+    j["state_hash"] = fmt::format("{:016x}", state_hash(b.state));
+    const double steps = static_cast<double>(b.state.step);
+    j["run_time"] = {{"build_s", record.phases.build}, {"steps_s", record.phases.steps}, {"output_s", record.phases.output},
+                     {"steps_per_s", record.phases.steps > 0.0 ? steps / record.phases.steps : 0.0}};
+    if (b.state.points.size() > 0 && steps > 0.0) {
+        j["run_time"]["ns_per_interface_point_and_step"] = 1e9 * record.phases.steps / steps / b.state.points.size();
+    }
+    j["peak_memory_B"] = peak_memory();
+    return j.dump(2) + "\n";
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/contact_forces.h"
+
+#include "contact/linear_contact.h"
+#include "gpu/parallel.h"
+#include "model/views.h"
+
+namespace grainfrac {
+
+namespace {
+
+/// A handed-over contact may be stiffer than its law by this factor at most; beyond it the geometry of the two laws has
+/// little in common and a force jump is the lesser evil (the time step would suffer).
+constexpr double most_stiffness_scale = 4.0;
+
+template <class Law>
+struct ContactForces {
+    static constexpr const char* name = "contact forces";
+    MotionView body;
+    SlotsView slot;
+    View<const Law> laws;
+    double dt;
+    int first_slot;
+    View<const std::int32_t> a, b, law, bond_slot, bond_count;
+    View<const ContactPoint> point;
+    View<std::int32_t> active;
+    View<Vec3> shear_force, normal;
+    View<double> twist_moment, max_overlap, offset_force, stiffness_scale, viscous_force, normal_force, stored_energy;
+    View<double> friction_work, viscous_work, hysteresis_work;
+
+    GF_FN void clear(int i) const
+    {
+        const int s = first_slot + i;
+        slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
+        if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
+        active[i] = 0;
+        shear_force[i] = Vec3{};
+        twist_moment[i] = max_overlap[i] = offset_force[i] = viscous_force[i] = normal_force[i] = stored_energy[i] = 0.0;
+        stiffness_scale[i] = 1.0;
+    }
+
+    /// Force that the pair's bonds put on a in their last step; their slots keep it until the bonds are evaluated again.
+    GF_FN Vec3 inherited_force(int i) const
+    {
+        Vec3 f;
+        for (int s = bond_slot[i]; s < bond_slot[i] + bond_count[i]; ++s) f -= slot.force[s];
+        return f;
+    }
+
+    GF_FN void take_over(int i, const ContactPoint& c, const Law& l, ContactHistory& h) const
+    {
+        const Vec3 f = inherited_force(i);
+        const double pressed = -dot(f, c.normal), own = l.area_stiffness * c.overlap_volume;
+        h.shear_force = tangential(f, c.normal);
+        h.normal = c.normal;
+        if (pressed <= own) h.offset_force = own - std::fmax(0.0, pressed);
+        else h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
+        h.max_overlap = std::fmax(0.0, l.area_stiffness * h.stiffness_scale * c.overlap_volume - h.offset_force) /
+                        (l.area_stiffness * h.stiffness_scale * c.area);
+    }
+
+    GF_FN void operator()(int i) const
+    {
+        const ContactPoint c = point[i];
+        if (c.overlap_volume <= 0.0) {
+            clear(i);
+            return;
+        }
+        const Law l = laws[law[i]];
+        ContactHistory h{shear_force[i], normal[i], twist_moment[i], max_overlap[i], offset_force[i], stiffness_scale[i]};
+        if (active[i] == 0) {
+            h = ContactHistory{};
+            h.normal = c.normal;
+            if (bond_count[i] > 0) take_over(i, c, l, h);
+            active[i] = 1;
+        }
+        const Vec3 arm_a = c.position - body.position[a[i]], arm_b = c.position - body.position[b[i]];
+        const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
+        ContactMotion m;
+        m.velocity = body.velocity[b[i]] + cross(wb, arm_b) - body.velocity[a[i]] - cross(wa, arm_a);
+        m.mean_spin = 0.5 * (wa + wb);
+        m.twist_rate = dot(wb - wa, c.normal);
+        m.reduced_mass = reduced_mass(body.inverse_mass[a[i]], body.inverse_mass[b[i]]);
+        const ContactResponse r = l(c, m, dt, h);
+
+        // trapezoidal in time, as for the dashpots of interfaces
+        viscous_work[i] -= 0.5 * dt * (viscous_force[i] + r.viscous_force) * dot(m.velocity, c.normal);
+        viscous_force[i] = r.viscous_force;
+        friction_work[i] += r.friction_work;
+        hysteresis_work[i] += r.hysteresis_work;
+        stored_energy[i] = r.stored;
+        normal_force[i] = r.normal_force;
+        shear_force[i] = h.shear_force;
+        normal[i] = h.normal;
+        twist_moment[i] = h.twist_moment;
+        max_overlap[i] = h.max_overlap;
+        offset_force[i] = h.offset_force;
+        stiffness_scale[i] = h.stiffness_scale;
+
+        const int s = first_slot + i;
+        const Vec3 couple = r.twist_moment * c.normal;
+        slot.force[s] = r.force;
+        slot.torque_a[s] = couple - cross(arm_a, r.force);
+        slot.torque_b[s] = cross(arm_b, r.force) - couple;
+        if (slot.dyad_a.size > 0) {
+            slot.dyad_a[s] = Mat3::outer(arm_a, -r.force);
+            slot.dyad_b[s] = Mat3::outer(arm_b, r.force);
+        }
+    }
+};
+
+}  // namespace
+
+void contact_forces(const Model& model, State& state, double dt)
+{
+    const Device d = model.device;
+    Contacts& c = state.contacts;
+    if (c.size() == 0) return;
+    parallel_for(d, c.size(),
+                 ContactForces<LinearContact>{
+                     motion_view(state.bodies, d), slots_view(state.slots, d), model.contact_laws.read(d), dt, state.bond_slots(),
+                     c.a.read(d), c.b.read(d), c.law.read(d), c.bond_slot.read(d), c.bond_count.read(d), c.point.read(d),
+                     c.active.write(d), c.shear_force.write(d), c.normal.write(d), c.twist_moment.write(d), c.max_overlap.write(d),
+                     c.offset_force.write(d), c.stiffness_scale.write(d), c.viscous_force.write(d), c.normal_force.write(d),
+                     c.stored_energy.write(d), c.friction_work.write(d), c.viscous_work.write(d), c.hysteresis_work.write(d)});
+}
+
+}  // namespace grainfrac

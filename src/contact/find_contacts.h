@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Geometry of all candidate pairs: overlap, normal, centre of pressure.
+#pragma once
+
+#include "model/model.h"
+#include "model/state.h"
+
+namespace grainfrac {
+
+/// Fill Contacts::point at the present positions; pairs whose bonds still act get none.
+void find_contacts(const Model& model, State& state);
+
+/// Pair whose cores penetrate (an error state), or -1. Looks at the points of the last find_contacts.
+int penetrating_pair(const Model& model, const State& state);
+
+}  // namespace grainfrac

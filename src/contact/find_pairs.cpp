@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/find_pairs.h"
+
+#include "contact/gather.h"
+#include "gpu/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace grainfrac {
+
+namespace {
+
+/// A body this many times wider than the median is no cell-list member: it is tested against all boxes (platens).
+constexpr double large_body = 4.0;
+
+struct Box {
+    Vec3 low, high;
+};
+
+bool overlap(const Box& a, const Box& b)
+{
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+std::vector<Box> body_boxes(const Model& model, const State& state)
+{
+    const Shapes& s = model.shapes;
+    const Bodies& b = state.bodies;
+    std::vector<Box> boxes(static_cast<std::size_t>(b.size()));
+    for (int i = 0; i < b.size(); ++i) {
+        const Mat3 r = to_matrix(b.orientation[i]);
+        Box& box = boxes[static_cast<std::size_t>(i)];
+        box = {{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+        for (int v = s.vertex_begin[b.shape[i]]; v < s.vertex_begin[b.shape[i] + 1]; ++v) {
+            const Vec3 p = b.position[i] + r * s.vertices[v];
+            for (int k = 0; k < 3; ++k) {
+                box.low[k] = std::min(box.low[k], p[k]);
+                box.high[k] = std::max(box.high[k], p[k]);
+            }
+        }
+        const double grow = s.radius[b.shape[i]] + 0.5 * model.skin;
+        box.low -= Vec3{grow, grow, grow};
+        box.high += Vec3{grow, grow, grow};
+    }
+    return boxes;
+}
+
+double width(const Box& b)
+{
+    return std::max({b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z});
+}
+
+/// Overlapping boxes by a hashed grid; large ones against all. Result sorted.
+std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes)
+{
+    const int n = static_cast<int>(boxes.size());
+    std::vector<std::pair<int, int>> pairs;
+    if (n < 2) return pairs;
+    std::vector<double> widths;
+    for (const Box& b : boxes) widths.push_back(width(b));
+    std::vector<double> sorted = widths;
+    std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+    const double limit = large_body * sorted[static_cast<std::size_t>(n / 2)];
+    double cell = 0.0;
+    for (const double w : widths) {
+        if (w <= limit) cell = std::max(cell, w);
+    }
+    const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
+        return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^ static_cast<std::uint64_t>(z * 83492791LL);
+    };
+    const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
+    std::unordered_map<std::uint64_t, std::vector<int>> grid;
+    for (int i = 0; i < n; ++i) {
+        const Box& b = boxes[static_cast<std::size_t>(i)];
+        if (widths[static_cast<std::size_t>(i)] > limit) {
+            for (int j = 0; j < n; ++j) {
+                const bool other_large = widths[static_cast<std::size_t>(j)] > limit;
+                if (j != i && (!other_large || i < j) && overlap(b, boxes[static_cast<std::size_t>(j)])) pairs.emplace_back(std::minmax(i, j));
+            }
+            continue;
+        }
+        const Vec3 c = 0.5 * (b.low + b.high);
+        const std::int64_t x = cell_of(c.x), y = cell_of(c.y), z = cell_of(c.z);
+        for (std::int64_t dx = -1; dx <= 1; ++dx) {
+            for (std::int64_t dy = -1; dy <= 1; ++dy) {
+                for (std::int64_t dz = -1; dz <= 1; ++dz) {
+                    const auto found = grid.find(key(x + dx, y + dy, z + dz));
+                    if (found == grid.end()) continue;
+                    for (const int j : found->second) {
+                        if (overlap(b, boxes[static_cast<std::size_t>(j)])) pairs.emplace_back(std::minmax(i, j));
+                    }
+                }
+            }
+        }
+        grid[key(x, y, z)].push_back(i);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());  // two cells may share a hash
+    return pairs;
+}
+
+/// First slot and number of the bonds of each bonded pair, sorted by pair.
+struct BondedPair {
+    std::pair<int, int> bodies;
+    std::int32_t slot = 0, count = 0;
+};
+std::vector<BondedPair> bonded_pairs(const State& state)
+{
+    std::vector<BondedPair> found;
+    const auto add = [&](const auto& bonds, std::int32_t first) {
+        for (int i = 0; i < bonds.size(); ++i) {
+            const std::pair<int, int> bodies{bonds.a[i], bonds.b[i]};
+            if (!found.empty() && found.back().bodies == bodies) ++found.back().count;
+            else found.push_back({bodies, first + i, 1});
+        }
+    };
+    add(state.interfaces, 0);
+    add(state.parallels, state.interfaces.size());
+    std::sort(found.begin(), found.end(), [](const BondedPair& x, const BondedPair& y) { return x.bodies < y.bodies; });
+    return found;
+}
+
+struct StepTravel {
+    View<const Vec3> velocity, angular_velocity;
+    View<const std::int32_t> shape;
+    View<const double> bounding_radius;
+    GF_FN double operator()(int i) const { return norm(velocity[i]) + norm(angular_velocity[i]) * bounding_radius[shape[i]]; }
+};
+
+}  // namespace
+
+bool pairs_are_stale(const Model& model, State& state, double dt)
+{
+    const Device d = model.device;
+    const Bodies& b = state.bodies;
+    state.travel += dt * parallel_max(d, b.size(), StepTravel{b.velocity.read(d), b.angular_velocity.read(d), b.shape.read(d),
+                                                              model.shapes.bounding_radius.read(d)});
+    return state.travel > 0.5 * model.skin;
+}
+
+void find_pairs(const Model& model, State& state)
+{
+    Contacts old = std::move(state.contacts);
+    Contacts fresh;
+    const Bodies& bodies = state.bodies;
+    const std::vector<BondedPair> bonded = bonded_pairs(state);
+    std::size_t at_bond = 0;
+    for (const auto& [a, b] : overlapping_boxes(body_boxes(model, state))) {
+        if (bodies.inverse_mass[a] == 0.0 && bodies.inverse_mass[b] == 0.0) continue;
+        const std::pair<int, int> pair{a, b};
+        while (at_bond < bonded.size() && bonded[at_bond].bodies < pair) ++at_bond;
+        const bool has_bond = at_bond < bonded.size() && bonded[at_bond].bodies == pair;
+        fresh.a.host().push_back(a);
+        fresh.b.host().push_back(b);
+        const auto law_at = static_cast<std::size_t>(bodies.group[a]) * model.groups.size() + static_cast<std::size_t>(bodies.group[b]);
+        fresh.law.host().push_back(model.contact_law_of[law_at]);
+        fresh.bond_slot.host().push_back(has_bond ? bonded[at_bond].slot : 0);
+        fresh.bond_count.host().push_back(has_bond ? bonded[at_bond].count : 0);
+    }
+    const int n = fresh.size();
+    fresh.point.resize(n);
+    fresh.for_each_history([&](const char*, auto& array) { array.resize(n); });
+    for (double& s : fresh.stiffness_scale.host()) s = 1.0;
+
+    // both lists are sorted: walk them together, carry over what stays, book what goes
+    std::vector<std::pair<int, int>> kept;  // new, old
+    int k = 0;
+    PastContacts& past = state.past_contacts;
+    for (int o = 0; o < old.size(); ++o) {
+        const std::pair<int, int> pair{old.a[o], old.b[o]};
+        while (k < n && std::pair<int, int>{fresh.a[k], fresh.b[k]} < pair) ++k;
+        if (k < n && std::pair<int, int>{fresh.a[k], fresh.b[k]} == pair) {
+            kept.emplace_back(k, o);
+            fresh.point.host()[static_cast<std::size_t>(k)] = old.point[o];
+            continue;
+        }
+        past.friction_work += old.friction_work[o];
+        past.viscous_work += old.viscous_work[o];
+        past.hysteresis_work += old.hysteresis_work[o] + old.stored_energy[o];
+    }
+    std::vector<void*> targets;
+    fresh.for_each_history([&](const char*, auto& array) { targets.push_back(&array); });
+    std::size_t at = 0;
+    old.for_each_history([&](const char*, auto& from) {
+        auto& to = *static_cast<std::remove_reference_t<decltype(from)>*>(targets[at++]);
+        for (const auto& [i, o] : kept) to.host()[static_cast<std::size_t>(i)] = from[o];
+    });
+    state.contacts = std::move(fresh);
+    state.travel = 0.0;
+    build_incidence(state);
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/gather.h"
+
+#include "gpu/parallel.h"
+
+#include <vector>
+
+namespace grainfrac {
+
+namespace {
+
+struct GatherForces {
+    static constexpr const char* name = "gather forces";
+    View<const std::int32_t> begin, entry;
+    View<const Vec3> slot_force, slot_torque_a, slot_torque_b;
+    View<const double> mass, inverse_mass;
+    Vec3 gravity;
+    View<Vec3> force, torque;
+
+    GF_FN void operator()(int body) const
+    {
+        Vec3 f, t;
+        for (int k = begin[body]; k < begin[body + 1]; ++k) {
+            const int slot = entry[k] / 2;
+            if (entry[k] % 2 == 0) {
+                f -= slot_force[slot];
+                t += slot_torque_a[slot];
+            } else {
+                f += slot_force[slot];
+                t += slot_torque_b[slot];
+            }
+        }
+        if (inverse_mass[body] > 0.0) f += mass[body] * gravity;
+        force[body] = f;
+        torque[body] = t;
+    }
+};
+
+}  // namespace
+
+void gather_forces(const Model& model, State& state)
+{
+    const Device d = model.device;
+    Bodies& b = state.bodies;
+    const Slots& s = state.slots;
+    parallel_for(d, b.size(),
+                 GatherForces{state.incidence.begin.read(d), state.incidence.entry.read(d), s.force.read(d), s.torque_a.read(d),
+                              s.torque_b.read(d), b.mass.read(d), b.inverse_mass.read(d), model.gravity, b.force.write(d),
+                              b.torque.write(d)});
+}
+
+void build_incidence(State& state)
+{
+    const int bodies = state.bodies.size();
+    std::vector<std::int32_t> begin(static_cast<std::size_t>(bodies) + 1, 0);
+    const auto for_each_slot = [&](auto&& visit) {
+        std::int32_t slot = 0;
+        for (int i = 0; i < state.interfaces.size(); ++i) visit(slot++, state.interfaces.a[i], state.interfaces.b[i]);
+        for (int i = 0; i < state.parallels.size(); ++i) visit(slot++, state.parallels.a[i], state.parallels.b[i]);
+        for (int i = 0; i < state.contacts.size(); ++i) visit(slot++, state.contacts.a[i], state.contacts.b[i]);
+    };
+    for_each_slot([&](std::int32_t, std::int32_t a, std::int32_t b) {
+        ++begin[static_cast<std::size_t>(a) + 1];
+        ++begin[static_cast<std::size_t>(b) + 1];
+    });
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::int32_t> entry(static_cast<std::size_t>(begin.back()));
+    std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
+    for_each_slot([&](std::int32_t slot, std::int32_t a, std::int32_t b) {
+        entry[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = 2 * slot;
+        entry[static_cast<std::size_t>(next[static_cast<std::size_t>(b)]++)] = 2 * slot + 1;
+    });
+    state.incidence.begin.host() = std::move(begin);
+    state.incidence.entry.host() = std::move(entry);
+    state.slots.resize(state.bond_slots() + state.contacts.size());
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Slots onto bodies, in a fixed order.
+#pragma once
+
+#include "model/model.h"
+#include "model/state.h"
+
+namespace grainfrac {
+
+/// Bodies::force and ::torque from all slots, and gravity.
+void gather_forces(const Model& model, State& state);
+
+/// Which slots touch which body; after every change of bonds or pairs.
+void build_incidence(State& state);
+
+}  // namespace grainfrac

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment/brazilian.h"
+
+#include "experiment/walls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grainfrac {
+
+namespace {
+
+/// Platens reach beyond the disc's faces by this share of its height on either side.
+constexpr double platen_overhang = 0.1;
+/// Half width of flat platens over the disc's diameter: a wider arc is no Brazilian test.
+constexpr double default_half_width = 0.05;
+/// Jaws of the suggested method (ISRM 1978): radius 1.5 times the disc's.
+constexpr double jaw_radius_factor = 1.5;
+/// Flat platens: thickness over width.
+constexpr double platen_thickness = 0.5;
+
+/// Farthest point of the dilated bodies along `up` among core vertices within `half_width` of the load line.
+double pole(const Model& model, const State& state, const Vec3& center, const Vec3& up, const Vec3& side, double half_width)
+{
+    const Bodies& b = state.bodies;
+    double top = -1e300;
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.inverse_mass[i] == 0.0) continue;
+        const int s = b.shape[i];
+        for (int v = model.shapes.vertex_begin[s]; v < model.shapes.vertex_begin[s + 1]; ++v) {
+            const Vec3 x = b.position[i] + rotate(b.orientation[i], model.shapes.vertices[v]) - center;
+            if (std::fabs(dot(x, side)) <= half_width) top = std::max(top, dot(x, up) + model.shapes.radius[s]);
+        }
+    }
+    return top;
+}
+
+struct Jaw {
+    Vec3 center, up, side;
+    double depth = 0.0, half_width = 0.0;
+};
+
+void flat_platen(const Jaw& j, int wall, Model& model, State& state)
+{
+    const double top = pole(model, state, j.center, j.up, j.side, j.half_width);
+    if (top < 0.0) {
+        throw InputError("test.contact_half_width", "no grain reaches under the platen; widen it, or refine the grains");
+    }
+    add_plate(model, state, wall, j.center + top * j.up, -j.up, j.side, 2.0 * j.half_width, j.depth, 2.0 * platen_thickness * j.half_width);
+}
+
+/// Plates tangent to the jaw's circle, one for each facet of the disc that the contact covers, centred on the pole.
+void curved_platen(const Jaw& j, double jaw_radius, double facet_angle, int wall, Model& model, State& state)
+{
+    const double width = 2.0 * jaw_radius * std::tan(0.5 * facet_angle);
+    const double top = pole(model, state, j.center, j.up, j.side, 0.5 * width);
+    if (top < 0.0) throw InputError("test.platen", "no grain reaches under the jaw; refine the grains");
+    const Vec3 jaw_center = j.center + (top - jaw_radius) * j.up;
+    const int plates_each_side = std::max(0, static_cast<int>(std::floor(std::asin(std::min(1.0, j.half_width / jaw_radius)) / facet_angle + 0.5)) - 0);
+    for (int k = -plates_each_side; k <= plates_each_side; ++k) {
+        const double angle = k * facet_angle;
+        const Vec3 out = std::cos(angle) * j.up + std::sin(angle) * j.side;
+        const Vec3 along = std::cos(angle) * j.side - std::sin(angle) * j.up;
+        add_plate(model, state, wall, jaw_center + jaw_radius * out, -out, along, width, j.depth, width);
+    }
+}
+
+}  // namespace
+
+Experiment set_up_brazilian(const Case& c, Model& model, State& state)
+{
+    const RegionSpec& region = c.parts.front().region;
+    const double diameter = region.diameter, height = region.height;
+    Jaw jaw;
+    jaw.center = region.center;
+    jaw.up = c.test.direction == "x" ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    jaw.side = c.test.direction == "x" ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    jaw.depth = height * (1.0 + 2.0 * platen_overhang);
+    jaw.half_width = c.test.contact_half_width.value_or(default_half_width * diameter);
+
+    Experiment e;
+    e.kind = "brazilian";
+    const int grain_bodies = state.bodies.size();
+    for (const int sign : {1, -1}) {
+        Jaw j = jaw;
+        j.up = static_cast<double>(sign) * jaw.up;
+        const int wall = add_wall(model, sign > 0 ? "platen_top" : "platen_bottom");
+        if (c.test.platen == "curved") {
+            const double radius = c.test.platen_radius > 0.0 ? c.test.platen_radius : jaw_radius_factor * 0.5 * diameter;
+            curved_platen(j, radius, 2.0 * std::numbers::pi / region.facets, wall, model, state);
+        } else {
+            flat_platen(j, wall, model, state);
+        }
+    }
+    if (state.bodies.size() == grain_bodies) throw InputError("test.platen", "no platen could be placed");
+
+    e.specimen.length = diameter;
+    e.specimen.stress_area = 0.5 * std::numbers::pi * diameter * height;
+    e.specimen.load_direction = -jaw.up;
+    e.specimen.loaded_wall = 0;
+    e.specimen.opposite_wall = 1;
+
+    Stage load;
+    load.name = "load";
+    load.wall_velocity = {-0.5 * c.test.platen_speed * jaw.up, 0.5 * c.test.platen_speed * jaw.up};
+    const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
+    e.wave_speed = std::sqrt(m.young_modulus / m.density);
+    load.ramp = c.test.ramp.value_or(10.0 * diameter / e.wave_speed);
+    load.local_damping = c.control.local_damping;
+    load.duration = c.test.stop.time;
+    load.load_drop = c.test.stop.load_drop;
+    if (c.test.stop.strain) load.displacement = *c.test.stop.strain * diameter;
+    if (!load.duration && !load.load_drop && !load.displacement) {
+        load.load_drop = 0.5;
+        load.displacement = 0.02 * diameter;
+    }
+    e.stages = {load};
+
+    // closing at failure: about 4 nominal strains sigma_t/E over the diameter, contact compliance included
+    double strength = 0.0;
+    for (const BondSpec& b : c.bonds) strength = std::max(strength, b.tensile_strength);
+    if (strength > 0.0) e.expected_duration = 4.0 * strength / m.young_modulus * diameter / c.test.platen_speed + 0.5 * load.ramp;
+    if (load.displacement) {
+        const double by_strain = *load.displacement / c.test.platen_speed + 0.5 * load.ramp;
+        e.expected_duration = e.expected_duration > 0.0 ? std::min(e.expected_duration, by_strain) : by_strain;
+    }
+    if (load.duration) e.expected_duration = e.expected_duration > 0.0 ? std::min(e.expected_duration, *load.duration) : *load.duration;
+    return e;
+}
+
+}  // namespace grainfrac

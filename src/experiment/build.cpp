@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/find_pairs.h"
+#include "experiment/brazilian.h"
+#include "experiment/custom.h"
+#include "experiment/experiment.h"
+#include "experiment/laws.h"
+#include "experiment/walls.h"
+#include "generate/microstructure.h"
+#include "model/validate.h"
+#include "motion/step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+/// Skin of the neighbour list over the mean grain spacing: a few rebuilds a run, few pairs that never touch.
+constexpr double default_skin = 0.1;
+
+/// Mean diameter of the inscribed balls of each group's grains [m].
+std::vector<double> grain_spacing(const Model& model, const std::vector<GrainSpec>& grains)
+{
+    std::vector<double> sum(model.groups.size(), 0.0);
+    std::vector<int> count(model.groups.size(), 0);
+    for (const GrainSpec& g : grains) {
+        sum[static_cast<std::size_t>(g.group)] += 2.0 * inscribed_ball(g.shape).radius;
+        ++count[static_cast<std::size_t>(g.group)];
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = count[i] > 0 ? sum[i] / count[i] : 0.0;
+    return sum;
+}
+
+/// A bilinear point needs lambda_f > lambda_0: G_I > sigma_c^2/(2 k_n) and G_II > c^2/(2 k_s), or it would snap back
+/// within itself.
+void check_snap_back(const Model& model, const State& state, const BondTable& table)
+{
+    struct Worst {
+        double needed_I = 0.0, needed_II = 0.0;
+    };
+    const InterfaceBonds& f = state.interfaces;
+    std::vector<Worst> worst(static_cast<std::size_t>(model.interface_laws.size()));
+    std::vector<int> entry(worst.size(), -1);
+    for (int i = 0; i < f.size(); ++i) {
+        const InterfaceLaw law = model.interface_laws[f.law[i]];
+        if (law.softening != Softening::bilinear || law.failure == FailureUnit::unbreakable) continue;
+        Worst& w = worst[static_cast<std::size_t>(f.law[i])];
+        const double scale = f.strength_factor[i] * f.strength_factor[i] / f.toughness_factor[i];
+        w.needed_I = std::max(w.needed_I, scale * law.tensile_strength * law.tensile_strength / (2.0 * f.normal_stiffness[i]));
+        w.needed_II = std::max(w.needed_II, scale * law.cohesion * law.cohesion / (2.0 * f.shear_stiffness[i]));
+        if (entry[static_cast<std::size_t>(f.law[i])] < 0) {
+            entry[static_cast<std::size_t>(f.law[i])] =
+                table.entry_of(*table.rule_of(state.bodies.group[f.a[i]], state.bodies.group[f.b[i]]));
+        }
+    }
+    std::vector<InputProblem> problems;
+    for (std::size_t l = 0; l < worst.size(); ++l) {
+        const InterfaceLaw law = model.interface_laws[static_cast<int>(l)];
+        const auto refuse = [&](const char* key, double found, double needed, const char* formula) {
+            if (needed < found) return;
+            problems.push_back({fmt::format("bonds[{}].{}", entry[l], key),
+                                fmt::format("must be > {} = {:.4g} J/m^2 for the stiffest face, or the bond snaps back within itself; raise it, "
+                                            "lower the strength, refine the grains, or set softening = \"brittle\"",
+                                            formula, needed)});
+        };
+        if (worst[l].needed_I > 0.0) refuse("fracture_energy_I", law.fracture_energy_I, worst[l].needed_I, "tensile_strength^2/(2 k_n)");
+        if (worst[l].needed_II > 0.0) refuse("fracture_energy_II", law.fracture_energy_II, worst[l].needed_II, "cohesion^2/(2 k_s)");
+    }
+    if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void check_bonds_exist(const Case& c, const Model& model, const State& state, const BondTable& table)
+{
+    if (c.bonds.empty() || state.bond_slots() > 0) return;
+    for (std::size_t a = 0; a < model.groups.size(); ++a) {
+        if (table.rule_of(static_cast<int>(a), static_cast<int>(a)) != nullptr && state.bodies.size() > 1) {
+            throw InputError("bonds[0].between", "no two grains of these parts share a face, so that no bond can be made");
+        }
+    }
+}
+
+}  // namespace
+
+Built build(const Case& c, Device device)
+{
+    Built built;
+    Model& model = built.model;
+    State& state = built.state;
+    model.device = device;
+    for (const MaterialSpec& m : c.materials) model.materials.push_back({m.name, m.density, m.young_modulus, m.poisson_ratio});
+    const auto material_index = [&](const std::string& name) {
+        return static_cast<std::int32_t>(std::find_if(model.materials.begin(), model.materials.end(), [&](const Material& m) { return m.name == name; }) -
+                                         model.materials.begin());
+    };
+    for (const PartSpec& p : c.parts) model.groups.push_back({p.name, material_index(p.material), false});
+
+    const std::vector<GrainSpec> grains = generate_grains(c);
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        try {
+            add_grain(model, state, grains[i]);
+        } catch (const std::invalid_argument& e) {
+            throw InputError(fmt::format("parts[{}]", grains[i].group), fmt::format("grain {}: {}", i, e.what()));
+        }
+    }
+    std::vector<double> spacing = grain_spacing(model, grains);
+    model.nominal_length = *std::max_element(spacing.begin(), spacing.end());
+
+    const BondTable table(c, model);
+    bond_shared_faces(model, state, grains, c.simulation.seed,
+                      [&](int a, int b) { return table.rule_of(state.bodies.group[a], state.bodies.group[b]); });
+    check_bonds_exist(c, model, state, table);
+    check_snap_back(model, state, table);
+
+    for (const WallSpec& w : c.walls) add_wall(model, state, w);
+    built.experiment = c.test.kind == "brazilian" ? set_up_brazilian(c, model, state) : set_up_custom(c, model, state);
+    spacing.resize(model.groups.size(), 0.0);
+    make_contact_laws(c, spacing, model);
+
+    model.gravity = c.control.gravity;
+    model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
+    double strength = 0.0;
+    for (const BondSpec& b : c.bonds) {
+        if (b.tensile_strength > 0.0) strength = strength > 0.0 ? std::min(strength, b.tensile_strength) : b.tensile_strength;
+    }
+    const Material& m = model.materials.front();
+    built.experiment.quasi_static_speed = 0.01 * strength / std::sqrt(m.density * m.young_modulus);
+    if (const std::string why = why_not_valid(model, state); !why.empty()) throw std::logic_error("built an impossible state: " + why);
+    return built;
+}
+
+Measurement measure(const Experiment& e, const Model&, const State& state)
+{
+    Measurement m;
+    const Specimen& s = e.specimen;
+    if (s.loaded_wall < 0) return m;
+    const Bodies& b = state.bodies;
+    const auto wall = [&](std::int32_t w, Vec3& force, Vec3& shift) {
+        bool first = true;
+        for (int i = 0; i < b.size(); ++i) {
+            if (b.wall[i] != w) continue;
+            force += b.force[i];
+            if (first) shift = b.position[i] - b.start_position[i];
+            first = false;
+        }
+    };
+    Vec3 force, shift, other_force, other_shift;
+    wall(s.loaded_wall, force, shift);
+    const double push = -dot(force, s.load_direction);
+    m.load = push;
+    m.displacement = dot(shift, s.load_direction);
+    if (s.opposite_wall >= 0) {
+        wall(s.opposite_wall, other_force, other_shift);
+        const double other_push = dot(other_force, s.load_direction);
+        m.displacement -= dot(other_shift, s.load_direction);
+        m.load = 0.5 * (push + other_push);
+        if (m.load != 0.0) m.platen_imbalance = std::fabs(push - other_push) / std::fabs(m.load);
+    }
+    if (s.length > 0.0) m.strain = m.displacement / s.length;
+    if (s.stress_area > 0.0) m.stress = m.load / s.stress_area;
+    return m;
+}
+
+void begin_stage(const Stage& stage, Model& model, const State& state)
+{
+    auto& motions = model.wall_motion.host();
+    for (std::size_t w = 0; w < motions.size(); ++w) {
+        const Vec3 now = motions[w].at(state.time);
+        const Vec3 wanted = w < stage.wall_velocity.size() ? stage.wall_velocity[w] : Vec3{};
+        motions[w] = {now, wanted, state.time, stage.ramp};
+    }
+    model.local_damping = stage.local_damping;
+    model.fracture_active = stage.fracture;
+}
+
+double unbalanced_force_ratio(const State& state)
+{
+    double most = 0.0, sum = 0.0;
+    int acting = 0;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (state.bodies.inverse_mass[i] > 0.0) most = std::max(most, norm(state.bodies.force[i]));
+    }
+    for (int s = 0; s < state.slots.size(); ++s) {
+        const double f = norm(state.slots.force[s]);
+        if (f > 0.0) {
+            sum += f;
+            ++acting;
+        }
+    }
+    return acting > 0 && sum > 0.0 ? most * acting / sum : 0.0;
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment/custom.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+int wall_named(const Model& model, const std::string& name)
+{
+    return static_cast<int>(std::find(model.walls.begin(), model.walls.end(), name) - model.walls.begin());
+}
+
+/// Extents of the sharp grains.
+struct Extent {
+    Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+};
+Extent specimen_extent(const Model& model, const State& state)
+{
+    Extent e;
+    const Bodies& b = state.bodies;
+    for (int i = 0; i < b.size(); ++i) {
+        for (const Vec3& v : model.grain_shapes[static_cast<std::size_t>(b.id[i])].vertices) {
+            const Vec3 x = b.position[i] + rotate(b.orientation[i], v);
+            for (int k = 0; k < 3; ++k) {
+                e.low[k] = std::min(e.low[k], x[k]);
+                e.high[k] = std::max(e.high[k], x[k]);
+            }
+        }
+    }
+    return e;
+}
+
+Stage make_stage(const StageSpec& s, const Model& model)
+{
+    Stage stage;
+    stage.name = s.name;
+    stage.wall_velocity.assign(model.walls.size(), Vec3{});
+    for (const StageMotion& m : s.motions) stage.wall_velocity[static_cast<std::size_t>(wall_named(model, m.wall))] = m.velocity;
+    stage.ramp = s.ramp;
+    stage.local_damping = s.local_damping;
+    stage.fracture = s.fracture;
+    stage.duration = s.duration;
+    stage.load_drop = s.load_drop;
+    stage.displacement = s.max_displacement;
+    stage.unbalanced_force_ratio = s.unbalanced_force_ratio;
+    return stage;
+}
+
+}  // namespace
+
+Experiment set_up_custom(const Case& c, Model& model, State& state)
+{
+    Experiment e;
+    e.kind = "custom";
+    const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
+    e.wave_speed = std::sqrt(m.young_modulus / m.density);
+    for (const StageSpec& s : c.stages) e.stages.push_back(make_stage(s, model));
+    if (e.stages.empty()) {  // the walls' own motion until stop.time
+        Stage run;
+        run.name = "run";
+        for (const WallSpec& w : c.walls) {
+            run.wall_velocity.push_back(w.velocity);
+            run.ramp = std::max(run.ramp, w.ramp);
+        }
+        run.local_damping = c.control.local_damping;
+        run.duration = c.test.stop.time;
+        e.stages.push_back(run);
+    }
+    double longest = 0.0;
+    for (const Stage& s : e.stages) {
+        longest += s.duration.value_or(0.0);
+        for (std::size_t w = 0; w < s.wall_velocity.size() && e.specimen.loaded_wall < 0; ++w) {
+            if (norm(s.wall_velocity[w]) == 0.0) continue;
+            const Extent x = specimen_extent(model, state);
+            const Vec3 d = normalized(s.wall_velocity[w]), size = x.high - x.low;
+            e.specimen.loaded_wall = static_cast<std::int32_t>(w);
+            e.specimen.load_direction = d;
+            e.specimen.length = std::fabs(d.x) * size.x + std::fabs(d.y) * size.y + std::fabs(d.z) * size.z;
+            e.specimen.stress_area = std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
+        }
+    }
+    e.expected_duration = longest;
+    if (c.test.stop.time) e.expected_duration = longest > 0.0 ? std::min(longest, *c.test.stop.time) : *c.test.stop.time;
+    return e;
+}
+
+}  // namespace grainfrac

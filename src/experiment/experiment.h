@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ready-made test: platens, stages, what is measured, when it ends. Case in, everything that a run needs out.
+#pragma once
+
+#include "model/case.h"
+#include "model/model.h"
+#include "model/state.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grainfrac {
+
+/// One stage of the loading programme; the first end condition that holds ends it.
+struct Stage {
+    std::string name;
+    std::vector<Vec3> wall_velocity;  ///< one per wall [m/s]
+    double ramp = 0.0;                ///< time over which walls change speed [s]
+    double local_damping = 0.0;       ///< [-]
+    bool fracture = true;
+    std::optional<double> duration;   ///< [s]
+    std::optional<double> load_drop;  ///< share of the peak load of this stage [-]
+    std::optional<double> displacement;  ///< closing of the walls [m]
+    std::optional<double> unbalanced_force_ratio;  ///< [-]
+};
+
+/// What the measures refer to.
+struct Specimen {
+    double length = 0.0;        ///< along the load: strain = displacement/length; 0: no nominal values [m]
+    double stress_area = 0.0;   ///< nominal stress = load/area; Brazilian: pi D t/2; 0: none [m^2]
+    Vec3 load_direction;        ///< unit [-]
+    std::int32_t loaded_wall = -1;   ///< its motion is the displacement, its force the load
+    std::int32_t opposite_wall = -1;  ///< for imbalance; -1: none
+    bool compression = true;    ///< load is the magnitude of a push
+};
+
+struct Experiment {
+    std::string kind;
+    Specimen specimen;
+    std::vector<Stage> stages;
+    double expected_duration = 0.0;  ///< guess from elasticity and strength, for output intervals and time left [s]
+    double wave_speed = 0.0;         ///< sqrt(E/rho) of the first material [m/s]
+    double quasi_static_speed = 0.0;  ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
+};
+
+struct Measurement {
+    double displacement = 0.0;      ///< closing of the walls [m]
+    double load = 0.0;              ///< [N]
+    double strain = 0.0;            ///< [-]
+    double stress = 0.0;            ///< [Pa]
+    double platen_imbalance = 0.0;  ///< |F_a - F_b| over their mean [-]
+};
+
+/// Model, state and experiment of a case. Throws InputError for what only building can find out.
+struct Built {
+    Model model;
+    State state;
+    Experiment experiment;
+};
+Built build(const Case& c, Device device);
+
+/// Forces on the walls and how far they went.
+Measurement measure(const Experiment& e, const Model& model, const State& state);
+
+/// Set wall motions, damping and fracture switch of a stage that begins now.
+void begin_stage(const Stage& stage, Model& model, const State& state);
+
+/// Largest resultant on a free body over the mean force of its interactions [-].
+double unbalanced_force_ratio(const State& state);
+
+}  // namespace grainfrac

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment/laws.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace grainfrac {
+
+namespace {
+
+/// A rigid wall is stiffer than the grains it meets by this factor: it must not add compliance to the specimen.
+constexpr double wall_stiffness_factor = 10.0;
+
+/// How closely a word names a group: 3 its name, 2 its family, 1 its material, 0 anything, -1 not at all.
+int closeness(const std::string& word, const Model& model, int group)
+{
+    const Group& g = model.groups[static_cast<std::size_t>(group)];
+    if (word == g.name) return 3;
+    if (word == "platen" && g.is_wall && g.name.rfind("platen_", 0) == 0) return 2;
+    if (g.material >= 0 && word == model.materials[static_cast<std::size_t>(g.material)].name) return 1;
+    return word == "*" ? 0 : -1;
+}
+
+QuadratureRule rule_named(const std::string& word)
+{
+    using enum QuadratureRule;
+    static const std::vector<std::pair<std::string, QuadratureRule>> names = {
+        {"auto", automatic}, {"cross", cross}, {"fan3", fan3}, {"fan7", fan7}, {"gauss2", gauss2}, {"gauss3", gauss3},
+        {"gauss4", gauss4}, {"gauss6", gauss6}, {"gauss8", gauss8}, {"lobatto3", lobatto3}, {"lobatto4", lobatto4},
+        {"lobatto5", lobatto5}, {"lobatto6", lobatto6}, {"lobatto8", lobatto8}};
+    for (const auto& [name, rule] : names) {
+        if (name == word) return rule;
+    }
+    throw std::logic_error("quadrature rule " + word + " passed the input check");
+}
+
+InterfaceLaw interface_law(const BondSpec& s)
+{
+    InterfaceLaw l{};
+    l.tensile_strength = s.tensile_strength;
+    l.cohesion = s.cohesion;
+    l.friction = s.friction;
+    l.residual_friction = s.residual_friction.value_or(s.friction);
+    l.fracture_energy_I = s.fracture_energy_I;
+    l.fracture_energy_II = s.fracture_energy_II;
+    l.mixed_mode_exponent = s.mixed_mode_exponent;
+    l.onset = s.onset == "quadratic" ? OnsetSurface::quadratic : OnsetSurface::mohr_coulomb;
+    l.softening = s.softening == "brittle" ? Softening::brittle : Softening::bilinear;
+    l.failure = s.failure == "unbreakable" ? FailureUnit::unbreakable : (s.failure == "face" ? FailureUnit::face : FailureUnit::point);
+    l.mixed_mode = s.mixed_mode == "power" ? MixedMode::power : MixedMode::benzeggagh_kenane;
+    return l;
+}
+
+ParallelLaw parallel_law(const BondSpec& s)
+{
+    return {s.tensile_strength, s.cohesion, s.friction, s.moment_contribution, s.law == "point", s.failure != "unbreakable"};
+}
+
+}  // namespace
+
+int most_specific(const std::vector<std::array<std::string, 2>>& betweens, const Model& model, int group_a, int group_b)
+{
+    int best = -1, best_score = -1;
+    for (std::size_t i = 0; i < betweens.size(); ++i) {
+        const auto& [x, y] = betweens[i];
+        const int xa = closeness(x, model, group_a), yb = closeness(y, model, group_b);
+        const int xb = closeness(x, model, group_b), ya = closeness(y, model, group_a);
+        const int score = std::max(xa >= 0 && yb >= 0 ? xa + yb : -1, xb >= 0 && ya >= 0 ? xb + ya : -1);
+        if (score >= 0 && score >= best_score) {
+            best_score = score;
+            best = static_cast<int>(i);
+        }
+    }
+    return best;
+}
+
+NetworkStiffness network_stiffness(const std::string& kind, double E, double nu, std::optional<double> shear_ratio)
+{
+    if (kind == "plane") {
+        const double s = shear_ratio.value_or((1.0 - 3.0 * nu) / (1.0 + nu));
+        return {E * (3.0 + s) / (2.0 * (1.0 + s)), s};
+    }
+    if (kind == "solid") {
+        const double s = shear_ratio.value_or((1.0 - 4.0 * nu) / (1.0 + nu));
+        return {E * (4.0 + s) / (2.0 + 3.0 * s), s};
+    }
+    return {E, shear_ratio.value_or(1.0)};
+}
+
+BondTable::BondTable(const Case& c, Model& model)
+    : groups_(static_cast<int>(model.groups.size())), of_pair_(model.groups.size() * model.groups.size(), -1)
+{
+    std::vector<std::array<std::string, 2>> betweens;
+    for (const BondSpec& s : c.bonds) betweens.push_back(s.between);
+    for (int a = 0; a < groups_; ++a) {
+        for (int b = a; b < groups_; ++b) {
+            const Group& ga = model.groups[static_cast<std::size_t>(a)];
+            const Group& gb = model.groups[static_cast<std::size_t>(b)];
+            if (ga.is_wall || gb.is_wall) continue;
+            const int entry = most_specific(betweens, model, a, b);
+            if (entry < 0) continue;
+            const BondSpec& s = c.bonds[static_cast<std::size_t>(entry)];
+            const Material& ma = model.materials[static_cast<std::size_t>(ga.material)];
+            const Material& mb = model.materials[static_cast<std::size_t>(gb.material)];
+            const double E = 2.0 / (1.0 / ma.young_modulus + 1.0 / mb.young_modulus);
+            const NetworkStiffness k = network_stiffness(s.elasticity, E, 0.5 * (ma.poisson_ratio + mb.poisson_ratio), s.shear_ratio);
+            BondRule r;
+            r.kind = s.law == "interface" ? BondRule::Kind::interface : (s.law == "parallel" ? BondRule::Kind::parallel : BondRule::Kind::point);
+            if (r.kind == BondRule::Kind::interface) {
+                r.law = model.interface_laws.size();
+                model.interface_laws.host().push_back(interface_law(s));
+            } else {
+                r.law = model.parallel_laws.size();
+                model.parallel_laws.host().push_back(parallel_law(s));
+            }
+            r.quadrature = rule_named(s.quadrature);
+            r.damping = s.damping;
+            r.normal_stiffness = s.normal_stiffness;
+            r.modulus = k.modulus;
+            r.shear_ratio = k.shear_ratio;
+            r.bond_radius = s.bond_radius;
+            r.weibull_modulus = s.weibull_modulus;
+            r.weibull_area = s.weibull_area;
+            r.weibull_scales_energy = s.weibull_scales_energy;
+            r.misorientation_angle = s.misorientation_angle;
+            r.misorientation_effect = s.misorientation_effect;
+            const auto at = static_cast<int>(rules_.size());
+            of_pair_[static_cast<std::size_t>(a * groups_ + b)] = of_pair_[static_cast<std::size_t>(b * groups_ + a)] = at;
+            rules_.push_back(r);
+            entry_.push_back(entry);
+        }
+    }
+}
+
+const BondRule* BondTable::rule_of(int group_a, int group_b) const
+{
+    const int at = of_pair_[static_cast<std::size_t>(group_a * groups_ + group_b)];
+    return at < 0 ? nullptr : &rules_[static_cast<std::size_t>(at)];
+}
+
+int BondTable::entry_of(const BondRule& rule) const
+{
+    return entry_[static_cast<std::size_t>(&rule - rules_.data())];
+}
+
+double damping_ratio_of(double restitution)
+{
+    const double l = std::log(restitution);
+    return -l / std::sqrt(std::numbers::pi * std::numbers::pi + l * l);
+}
+
+void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model& model)
+{
+    std::vector<std::array<std::string, 2>> betweens;
+    for (const ContactSpec& s : c.contacts) betweens.push_back(s.between);
+    const int n = static_cast<int>(model.groups.size());
+    model.contact_law_of.assign(static_cast<std::size_t>(n * n), -1);
+    for (int a = 0; a < n; ++a) {
+        for (int b = a; b < n; ++b) {
+            const int entry = most_specific(betweens, model, a, b);
+            const ContactSpec s = entry >= 0 ? c.contacts[static_cast<std::size_t>(entry)] : ContactSpec{};
+            double compliance = 0.0;  // h/E of both sides, in series [m/Pa]
+            int grains = 0;
+            for (const int g : {a, b}) {
+                const std::int32_t m = model.groups[static_cast<std::size_t>(g)].material;
+                if (m < 0) continue;
+                compliance += spacing[static_cast<std::size_t>(g)] / model.materials[static_cast<std::size_t>(m)].young_modulus;
+                ++grains;
+            }
+            LinearContact law{};
+            if (grains > 0) law.area_stiffness = grains * (grains == 1 ? wall_stiffness_factor : 1.0) / compliance;
+            law.area_stiffness = s.normal_stiffness.value_or(law.area_stiffness);
+            law.shear_ratio = s.shear_ratio;
+            law.friction = s.friction;
+            law.unload_factor = s.dissipation == "hysteretic" ? 1.0 / (s.restitution * s.restitution) : 1.0;
+            law.damping_ratio = s.dissipation == "viscous" ? damping_ratio_of(s.restitution) : 0.0;
+            model.contact_law_of[static_cast<std::size_t>(a * n + b)] = model.contact_law_of[static_cast<std::size_t>(b * n + a)] =
+                model.contact_laws.size();
+            model.contact_laws.host().push_back(law);
+        }
+    }
+}
+
+}  // namespace grainfrac

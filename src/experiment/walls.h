@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Driven bodies: plates, cylinders, spheres, and platens made of plates.
+#pragma once
+
+#include "model/case.h"
+#include "model/model.h"
+#include "model/state.h"
+
+#include <string>
+
+namespace grainfrac {
+
+/// New wall (and group) of this name, without bodies yet; returns its index.
+int add_wall(Model& model, const std::string& name);
+
+/// Plate of wall `wall` whose loaded face is centred at `face_center` and looks along `normal`; in-plane full lengths
+/// `width` along `along` and `depth` across it.
+void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along, double width,
+               double depth, double thickness);
+
+/// A wall of the input with its body.
+void add_wall(Model& model, State& state, const WallSpec& spec);
+
+}  // namespace grainfrac

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fracture/bond_forces.h"
+
+#include "contact/linear_contact.h"
+#include "gpu/parallel.h"
+#include "model/views.h"
+
+namespace grainfrac {
+
+namespace {
+
+/// Jump of an interface in its own frame: mean normal, mean first tangent, second tangent. Using the mean of both faces
+/// makes the law the same whichever grain is called a.
+struct InterfaceFrame {
+    Mat3 rotation_a, rotation_b;
+    Vec3 between;  // c_b - c_a [m]
+    Vec3 n, t1, t2;
+};
+
+struct InterfaceForces {
+    static constexpr const char* name = "interface forces";
+    MotionView body;
+    SlotsView slot;
+    View<const InterfaceLaw> laws;
+    double dt, time;
+    bool fracture_active;
+
+    View<const std::int32_t> a, b, law, point_begin, corner_begin;
+    View<const Vec3> normal_a, normal_b, tangent_a, tangent_b;
+    View<const double> area, diameter, normal_stiffness, shear_stiffness, normal_damping, shear_damping;
+    View<const double> strength_factor, toughness_factor, opening_limit;
+    View<const Vec3> point_a, point_b, corner_a, corner_b;
+    View<const double> weight;
+
+    View<std::int32_t> retired;
+    View<double> damage, stored_energy, fracture_work, friction_work, viscous_work, shear_share;
+    View<double> first_damage_time, failure_time;
+    View<Vec3> viscous_force, viscous_torque_a, viscous_torque_b;
+    View<double> point_damage, point_onset, point_failure;
+    View<Vec2> point_slip;
+
+    GF_FN InterfaceFrame frame(int i) const
+    {
+        InterfaceFrame f;
+        f.rotation_a = to_matrix(body.orientation[a[i]]);
+        f.rotation_b = to_matrix(body.orientation[b[i]]);
+        f.between = body.position[b[i]] - body.position[a[i]];
+        f.n = normalized(f.rotation_a * normal_a[i] + f.rotation_b * normal_b[i]);
+        f.t1 = normalized(tangential(f.rotation_a * tangent_a[i] + f.rotation_b * tangent_b[i], f.n));
+        f.t2 = cross(f.n, f.t1);
+        return f;
+    }
+
+    /// Whole-face failure: true when a corner of the face meets the onset surface.
+    GF_FN bool face_fails(int i, const InterfaceFrame& f, const InterfaceLaw& l) const
+    {
+        for (int c = corner_begin[i]; c < corner_begin[i + 1]; ++c) {
+            const Vec3 jump = f.between + f.rotation_b * corner_b[c] - f.rotation_a * corner_a[c];
+            const double sigma = normal_stiffness[i] * dot(jump, f.n);
+            const double tau = shear_stiffness[i] * norm(tangential(jump, f.n));
+            if (l.onset_factor(sigma, tau, strength_factor[i]) >= 1.0) return true;
+        }
+        return false;
+    }
+
+    GF_FN double power_on_bodies(int i) const
+    {
+        return dot(viscous_force[i], body.velocity[a[i]] - body.velocity[b[i]]) +
+               dot(viscous_torque_a[i], body.angular_velocity[a[i]]) + dot(viscous_torque_b[i], body.angular_velocity[b[i]]);
+    }
+
+    GF_FN void operator()(int i) const
+    {
+        if (retired[i] != 0) {
+            slot.force[i] = slot.torque_a[i] = slot.torque_b[i] = Vec3{};
+            stored_energy[i] = 0.0;
+            viscous_force[i] = viscous_torque_a[i] = viscous_torque_b[i] = Vec3{};
+            if (slot.dyad_a.size > 0) slot.dyad_a[i] = slot.dyad_b[i] = Mat3{};
+            return;
+        }
+        const InterfaceLaw l = laws[law[i]];
+        const InterfaceFrame f = frame(i);
+        const bool by_face = l.failure == FailureUnit::face;
+        const bool may_fail = fracture_active && l.failure != FailureUnit::unbreakable;
+        const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
+        const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
+        const double c_n = normal_damping[i], c_s = shear_damping[i];
+        const Vec3 va = body.velocity[a[i]], wa = body.angular_velocity[a[i]];
+        const Vec3 vb = body.velocity[b[i]], wb = body.angular_velocity[b[i]];
+
+        // Work of dashpots, trapezoidal in time: half of each force with the velocity before it, half with the one after.
+        double viscous = 0.5 * power_on_bodies(i);
+
+        Vec3 force, torque_a, torque_b;  // elastic, on a; torques on a and b
+        Vec3 drag, drag_torque_a, drag_torque_b;
+        Mat3 dyad_a, dyad_b;
+        double stored = 0.0, fractured = 0.0, slid = 0.0, sheared = 0.0, damaged = 0.0;
+        double least_opening = 1e300, most_sliding2 = 0.0;
+        for (int q = point_begin[i]; q < point_begin[i + 1]; ++q) {
+            const double w = weight[q];
+            const Vec3 arm_a = f.rotation_a * point_a[q], arm_b = f.rotation_b * point_b[q];
+            const Vec3 jump = f.between + arm_b - arm_a;
+            const double d_n = dot(jump, f.n), d_1 = dot(jump, f.t1), d_2 = dot(jump, f.t2);
+            InterfacePointState p{point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
+            const double onset_before = p.onset;
+            const InterfaceResponse r =
+                l(d_n, d_1, d_2, k_n, k_s, strength_factor[i], toughness_factor[i], may_fail && !by_face, fail_now, p);
+            if (p.onset > 0.0) {
+                point_damage[q] = p.damage;
+                point_onset[q] = p.onset;
+                point_failure[q] = p.failure;
+                point_slip[q] = {p.slip1, p.slip2};
+                if (onset_before == 0.0 && first_damage_time[i] < 0.0) first_damage_time[i] = time;
+            }
+            stored += w * r.stored;
+            fractured += w * r.fracture_work;
+            slid += w * r.friction_work;
+            sheared += w * r.shear_share;
+            damaged += w * p.damage;
+            least_opening = std::fmin(least_opening, d_n);
+            most_sliding2 = std::fmax(most_sliding2, d_1 * d_1 + d_2 * d_2);
+
+            // Both forces act at the midpoint: at their own points the pair would leave the torque jump x traction.
+            const Vec3 t = w * (r.normal * f.n + r.shear1 * f.t1 + r.shear2 * f.t2);
+            const Vec3 middle_a = arm_a + 0.5 * jump, middle_b = arm_b - 0.5 * jump;
+            force += t;
+            torque_a += cross(middle_a, t);
+            torque_b -= cross(middle_b, t);
+            Vec3 t_all = t;
+            if (c_n > 0.0 && p.damage < 1.0) {
+                const Vec3 rate = vb + cross(wb, arm_b) - va - cross(wa, arm_a);
+                const double rate_n = dot(rate, f.n);
+                const Vec3 v = (w * (1.0 - p.damage)) * ((c_n - c_s) * rate_n * f.n + c_s * rate);
+                drag += v;
+                drag_torque_a += cross(middle_a, v);
+                drag_torque_b -= cross(middle_b, v);
+                t_all += v;
+            }
+            if (slot.dyad_a.size > 0) {
+                dyad_a = dyad_a + Mat3::outer(middle_a, t_all);
+                dyad_b = dyad_b - Mat3::outer(middle_b, t_all);
+            }
+        }
+        viscous_force[i] = drag;
+        viscous_torque_a[i] = drag_torque_a;
+        viscous_torque_b[i] = drag_torque_b;
+        viscous += 0.5 * power_on_bodies(i);
+        viscous_work[i] -= viscous * dt;
+
+        slot.force[i] = -(force + drag);
+        slot.torque_a[i] = torque_a + drag_torque_a;
+        slot.torque_b[i] = torque_b + drag_torque_b;
+        if (slot.dyad_a.size > 0) {
+            slot.dyad_a[i] = dyad_a;
+            slot.dyad_b[i] = dyad_b;
+        }
+        stored_energy[i] = stored;
+        fracture_work[i] += fractured;
+        friction_work[i] += slid;
+        shear_share[i] += sheared;
+        damage[i] = damaged / area[i];
+        if (all_points_broken(i)) {
+            damage[i] = 1.0;
+            if (failure_time[i] < 0.0) failure_time[i] = time;
+            const double slip_limit = retirement_slip * diameter[i];
+            if (least_opening > opening_limit[i] || most_sliding2 > slip_limit * slip_limit) retired[i] = 1;
+        }
+    }
+
+    GF_FN bool all_points_broken(int i) const
+    {
+        for (int q = point_begin[i]; q < point_begin[i + 1]; ++q) {
+            if (point_damage[q] < 1.0) return false;
+        }
+        return true;
+    }
+};
+
+/// Increments in the frame that turns with the bond; normal_old is the normal of the last evaluation.
+struct ParallelForces {
+    static constexpr const char* name = "parallel bond forces";
+    MotionView body;
+    SlotsView slot;
+    View<const ParallelLaw> laws;
+    double dt, time;
+    bool fracture_active;
+    int first_slot;
+
+    View<const std::int32_t> a, b, law;
+    View<const Vec3> position_a, position_b, normal_a, normal_b;
+    View<const double> radius, normal_stiffness, shear_stiffness, normal_damping, shear_damping, strength_factor;
+
+    View<Vec3> force, moment, normal;
+    View<std::int32_t> cause;
+    View<double> stored_energy, fracture_work, viscous_work, failure_time;
+    View<Vec3> viscous_force;
+
+    GF_FN void operator()(int i) const
+    {
+        const int s = first_slot + i;
+        if (cause[i] != static_cast<int>(BondCause::whole)) {
+            slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
+            stored_energy[i] = 0.0;
+            viscous_force[i] = Vec3{};
+            if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
+            return;
+        }
+        const Quat qa = body.orientation[a[i]], qb = body.orientation[b[i]];
+        const Vec3 n = normalized(rotate(qa, normal_a[i]) + rotate(qb, normal_b[i]));
+        const Vec3 arm_a = rotate(qa, position_a[i]), arm_b = rotate(qb, position_b[i]);
+        const Vec3 jump = body.position[b[i]] + arm_b - body.position[a[i]] - arm_a;
+        const Vec3 middle_a = arm_a + 0.5 * jump, middle_b = arm_b - 0.5 * jump;
+        const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
+        const Vec3 rate = body.velocity[b[i]] + cross(wb, middle_b) - body.velocity[a[i]] - cross(wa, middle_a);
+        const Vec3 turn = wb - wa;
+
+        const CircularSection section(radius[i]);
+        const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
+        const double spin = 0.5 * dt * dot(wa + wb, n);
+        const Vec3 u_n = dot(rate, n) * n, turn_n = dot(turn, n) * n;
+        Vec3 f = turn_with_contact(force[i], normal[i], n, spin);
+        Vec3 m = turn_with_contact(moment[i], normal[i], n, spin);
+        f += dt * (k_n * section.area * u_n + k_s * section.area * (rate - u_n));
+        m += dt * (k_s * section.polar * turn_n + k_n * section.bending * (turn - turn_n));
+        force[i] = f;
+        moment[i] = m;
+        normal[i] = n;
+        const double f_n = dot(f, n), m_n = dot(m, n);
+        stored_energy[i] = 0.5 * (f_n * f_n / (k_n * section.area) + norm2(tangential(f, n)) / (k_s * section.area) +
+                                  m_n * m_n / (k_s * section.polar) + norm2(tangential(m, n)) / (k_n * section.bending));
+
+        const Vec3 drag = normal_damping[i] * u_n + shear_damping[i] * (rate - u_n);
+        viscous_work[i] += 0.5 * dt * dot(viscous_force[i] + drag, rate);
+        viscous_force[i] = drag;
+
+        const Vec3 on_a = f + drag;
+        slot.force[s] = -on_a;
+        slot.torque_a[s] = cross(middle_a, on_a) + m;
+        slot.torque_b[s] = -(cross(middle_b, on_a) + m);
+        if (slot.dyad_a.size > 0) {
+            slot.dyad_a[s] = Mat3::outer(middle_a, on_a);
+            slot.dyad_b[s] = Mat3::outer(middle_b, -on_a);
+        }
+        if (!fracture_active) return;
+        const BondCause broken = laws[law[i]].broken(f, m, n, radius[i], strength_factor[i]);
+        if (broken != BondCause::whole) {  // this force still acts in this step; the contact takes over in the next
+            cause[i] = static_cast<int>(broken);
+            failure_time[i] = time;
+            fracture_work[i] = stored_energy[i];
+            stored_energy[i] = 0.0;
+        }
+    }
+};
+
+InterfaceForces interface_kernel(const Model& model, State& state, double dt)
+{
+    const Device d = model.device;
+    InterfaceBonds& i = state.interfaces;
+    InterfacePoints& p = state.points;
+    return {motion_view(state.bodies, d), slots_view(state.slots, d), model.interface_laws.read(d), dt, state.time,
+            model.fracture_active,
+            i.a.read(d), i.b.read(d), i.law.read(d), i.point_begin.read(d), i.corner_begin.read(d),
+            i.normal_a.read(d), i.normal_b.read(d), i.tangent_a.read(d), i.tangent_b.read(d),
+            i.area.read(d), i.diameter.read(d), i.normal_stiffness.read(d), i.shear_stiffness.read(d), i.normal_damping.read(d),
+            i.shear_damping.read(d), i.strength_factor.read(d), i.toughness_factor.read(d), i.opening_limit.read(d),
+            p.position_a.read(d), p.position_b.read(d), state.corners.position_a.read(d), state.corners.position_b.read(d),
+            p.weight.read(d),
+            i.retired.write(d), i.damage.write(d), i.stored_energy.write(d), i.fracture_work.write(d), i.friction_work.write(d),
+            i.viscous_work.write(d), i.shear_share.write(d), i.first_damage_time.write(d), i.failure_time.write(d),
+            i.viscous_force.write(d), i.viscous_torque_a.write(d), i.viscous_torque_b.write(d),
+            p.damage.write(d), p.onset.write(d), p.failure.write(d), p.slip.write(d)};
+}
+
+ParallelForces parallel_kernel(const Model& model, State& state, double dt)
+{
+    const Device d = model.device;
+    ParallelBonds& p = state.parallels;
+    return {motion_view(state.bodies, d), slots_view(state.slots, d), model.parallel_laws.read(d), dt, state.time,
+            model.fracture_active, state.interfaces.size(),
+            p.a.read(d), p.b.read(d), p.law.read(d),
+            p.position_a.read(d), p.position_b.read(d), p.normal_a.read(d), p.normal_b.read(d),
+            p.radius.read(d), p.normal_stiffness.read(d), p.shear_stiffness.read(d), p.normal_damping.read(d),
+            p.shear_damping.read(d), p.strength_factor.read(d),
+            p.force.write(d), p.moment.write(d), p.normal.write(d), p.cause.write(d), p.stored_energy.write(d),
+            p.fracture_work.write(d), p.viscous_work.write(d), p.failure_time.write(d), p.viscous_force.write(d)};
+}
+
+}  // namespace
+
+void bond_forces(const Model& model, State& state, double dt)
+{
+    if (state.interfaces.size() > 0) parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt));
+    if (state.parallels.size() > 0) parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt));
+}
+
+void start_bonds(const Model&, State& state)
+{
+    ParallelBonds& p = state.parallels;
+    for (int i = 0; i < p.size(); ++i) {
+        const Vec3 na = rotate(state.bodies.orientation[p.a[i]], p.normal_a[i]);
+        const Vec3 nb = rotate(state.bodies.orientation[p.b[i]], p.normal_b[i]);
+        p.normal.host()[static_cast<std::size_t>(i)] = normalized(na + nb);
+    }
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Closest points of two convex cores (Gilbert, Johnson and Keerthi 1988), sub-distances by Voronoi regions as in
+// Ericson, Real-Time Collision Detection (2005), 5.1. Works on vertex sets: balls and edges are sets of one and two.
+#pragma once
+
+#include "geometry/quat.h"
+
+namespace grainfrac {
+
+/// Vertex set in its own frame, placed in space.
+struct PlacedCore {
+    const Vec3* vertices = nullptr;  ///< body frame [m]
+    int count = 0;
+    Vec3 position;  ///< [m]
+    Quat orientation;
+
+    GF_FN Vec3 at(int i) const { return position + rotate(orientation, vertices[i]); }
+    /// Index of the vertex farthest along `direction` (world frame), the lowest of equals.
+    GF_FN int support(const Vec3& direction) const
+    {
+        const Vec3 d = rotate_back(orientation, direction);
+        int best = 0;
+        double most = dot(vertices[0], d);
+        for (int i = 1; i < count; ++i) {
+            const double h = dot(vertices[i], d);
+            if (h > most) {
+                most = h;
+                best = i;
+            }
+        }
+        return best;
+    }
+};
+
+struct ClosestPoints {
+    double distance = 0.0;  ///< 0: the cores overlap [m]
+    Vec3 a, b;              ///< the closest points [m]
+};
+
+namespace gjk_detail {
+
+struct Corner {
+    Vec3 w, a, b;  // difference b - a and the two points it comes from
+    double weight = 0.0;
+};
+
+struct Simplex {
+    Corner corner[4];
+    int count = 0;
+
+    GF_FN Vec3 closest() const
+    {
+        Vec3 v;
+        for (int i = 0; i < count; ++i) v += corner[i].weight * corner[i].w;
+        return v;
+    }
+    GF_FN void keep(const int* which, const double* weight, int n)
+    {
+        Corner kept[4];
+        for (int i = 0; i < n; ++i) {
+            kept[i] = corner[which[i]];
+            kept[i].weight = weight[i];
+        }
+        for (int i = 0; i < n; ++i) corner[i] = kept[i];
+        count = n;
+    }
+};
+
+/// Closest point of segment i-j to the origin: squared distance, and its corners and weights.
+struct Part {
+    double distance2 = 0.0;
+    int which[3] = {0, 0, 0};
+    double weight[3] = {1.0, 0.0, 0.0};
+    int count = 1;
+};
+
+GF_FN Part on_segment(const Simplex& s, int i, int j)
+{
+    const Vec3 p = s.corner[i].w, d = s.corner[j].w - p;
+    const double length2 = norm2(d);
+    const double t = length2 > 0.0 ? -dot(p, d) / length2 : 0.0;
+    Part part;
+    if (t <= 0.0) {
+        part.which[0] = i;
+        part.distance2 = norm2(p);
+    } else if (t >= 1.0) {
+        part.which[0] = j;
+        part.distance2 = norm2(s.corner[j].w);
+    } else {
+        part.which[0] = i;
+        part.which[1] = j;
+        part.weight[0] = 1.0 - t;
+        part.weight[1] = t;
+        part.count = 2;
+        part.distance2 = norm2(p + t * d);
+    }
+    return part;
+}
+
+GF_FN Part nearer(const Part& a, const Part& b)
+{
+    return b.distance2 < a.distance2 ? b : a;
+}
+
+GF_FN Part on_triangle(const Simplex& s, int i, int j, int k)
+{
+    const Vec3 p = s.corner[i].w, q = s.corner[j].w, r = s.corner[k].w;
+    const Vec3 n = cross(q - p, r - p);
+    const double n2 = norm2(n);
+    // barycentric coordinates of the origin's projection, as areas
+    const double u = dot(cross(q, r), n), v = dot(cross(r, p), n), w = dot(cross(p, q), n);
+    if (n2 > 0.0 && u > 0.0 && v > 0.0 && w > 0.0) {
+        Part part;
+        const double sum = 1.0 / (u + v + w);
+        part.which[0] = i;
+        part.which[1] = j;
+        part.which[2] = k;
+        part.weight[0] = u * sum;
+        part.weight[1] = v * sum;
+        part.weight[2] = w * sum;
+        part.count = 3;
+        const double h = dot(p, n);
+        part.distance2 = h * h / n2;
+        return part;
+    }
+    return nearer(nearer(on_segment(s, i, j), on_segment(s, j, k)), on_segment(s, k, i));
+}
+
+/// Reduce the simplex to the part nearest the origin; false if the origin is inside a tetrahedron.
+GF_FN bool reduce(Simplex& s)
+{
+    Part best;
+    if (s.count == 1) {
+        s.corner[0].weight = 1.0;
+        return true;
+    }
+    if (s.count == 2) {
+        best = on_segment(s, 0, 1);
+    } else if (s.count == 3) {
+        best = on_triangle(s, 0, 1, 2);
+    } else {
+        const int face[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+        bool outside_any = false;
+        for (const auto& f : face) {
+            const Vec3 p = s.corner[f[0]].w;
+            const Vec3 n = cross(s.corner[f[1]].w - p, s.corner[f[2]].w - p);
+            const double origin_side = -dot(p, n), inner_side = dot(s.corner[f[3]].w - p, n);
+            if (origin_side * inner_side > 0.0) continue;  // the origin is behind this face
+            const Part part = on_triangle(s, f[0], f[1], f[2]);
+            if (!outside_any || part.distance2 < best.distance2) best = part;
+            outside_any = true;
+        }
+        if (!outside_any) return false;
+    }
+    s.keep(best.which, best.weight, best.count);
+    return true;
+}
+
+}  // namespace gjk_detail
+
+/// @param guess direction from a to b to start with, any non-zero vector
+GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess)
+{
+    using gjk_detail::Corner;
+    constexpr int most_rounds = 64;  // a dozen is usual; round-off can make the last rounds cycle
+    constexpr double no_progress = 1e-14;  // relative decrease of the squared distance that counts as progress
+    gjk_detail::Simplex s;
+    const auto corner = [&](const Vec3& direction) {
+        const Vec3 pa = a.at(a.support(direction)), pb = b.at(b.support(-direction));
+        return Corner{pb - pa, pa, pb, 1.0};
+    };
+    s.corner[0] = corner(guess);
+    s.count = 1;
+    Vec3 v = s.corner[0].w;
+    for (int round = 0; round < most_rounds; ++round) {
+        const double v2 = norm2(v);
+        if (v2 == 0.0) return {};
+        const Corner next = corner(v);
+        if (v2 - dot(v, next.w) <= no_progress * v2) break;
+        bool known = false;
+        for (int i = 0; i < s.count; ++i) known = known || s.corner[i].w == next.w;
+        if (known) break;
+        const gjk_detail::Simplex before = s;
+        s.corner[s.count++] = next;
+        if (!gjk_detail::reduce(s)) return {};
+        const Vec3 nearer = s.closest();
+        if (norm2(nearer) >= v2) {
+            s = before;
+            break;
+        }
+        v = nearer;
+    }
+    ClosestPoints r;
+    for (int i = 0; i < s.count; ++i) {
+        r.a += s.corner[i].weight * s.corner[i].a;
+        r.b += s.corner[i].weight * s.corner[i].b;
+    }
+    r.distance = norm(r.b - r.a);
+    return r;
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/hdf5_results.h"
+
+#include "io/bond_faces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace grainfrac {
+
+namespace {
+
+// Entries stored together. Too few: much bookkeeping; too many: small cases pay for empty chunks, which deflate
+// shrinks.
+constexpr hsize_t history_chunk = 256, table_chunk = 512, grain_chunk = 2048, bond_chunk = 4096;
+
+template <class T>
+void append_rows(Hdf5Growing& column, const std::vector<T>& values, hsize_t width = 0)
+{
+    const hsize_t per_row = std::max<hsize_t>(width, 1);
+    Hdf5Growing::Extents offset{column.rows()}, count{values.size() / per_row};
+    if (width > 0) {
+        offset.push_back(0);
+        count.push_back(width);
+    }
+    column.write(offset, count, values);
+    column.flush();
+}
+
+void append_vec3(std::vector<double>& values, const Vec3& v)
+{
+    values.insert(values.end(), {v.x, v.y, v.z});
+}
+
+/// `value` of every entry as one new column of a table.
+template <class T, class Entry, class Value>
+void append_column(Hdf5Growing& column, const std::vector<Entry>& entries, Value&& value)
+{
+    std::vector<T> values;
+    for (const Entry& entry : entries) values.push_back(static_cast<T>(value(entry)));
+    append_rows(column, values);
+}
+template <class Entry, class Value>
+void append_vec3_column(Hdf5Growing& column, const std::vector<Entry>& entries, Value&& value)
+{
+    std::vector<double> values;
+    for (const Entry& entry : entries) append_vec3(values, value(entry));
+    append_rows(column, values, 3);
+}
+
+/// Bonds by the ids of their grains: an order that does not change when bodies are renumbered. Entry < interfaces: an
+/// interface, else a parallel bond.
+std::vector<int> bond_order(const State& state)
+{
+    const int interfaces = state.interfaces.size();
+    std::vector<std::pair<std::int32_t, std::int32_t>> key(static_cast<std::size_t>(state.bond_slots()));
+    for (int i = 0; i < state.bond_slots(); ++i) {
+        const bool face = i < interfaces;
+        const int a = face ? state.interfaces.a[i] : state.parallels.a[i - interfaces];
+        const int b = face ? state.interfaces.b[i] : state.parallels.b[i - interfaces];
+        key[static_cast<std::size_t>(i)] = std::minmax({state.bodies.id[a], state.bodies.id[b]});
+    }
+    std::vector<int> order(key.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int i, int j) { return key[static_cast<std::size_t>(i)] < key[static_cast<std::size_t>(j)]; });
+    return order;
+}
+
+}  // namespace
+
+Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& facts) : file_(Hdf5File::create(path))
+{
+    file_.set_attribute("/", "version", facts.version);
+    file_.set_attribute("/", "schema", results_schema);
+    file_.set_attribute("/", "seed", facts.seed);
+    file_.set_attribute("/", "input", facts.input_hash);
+    file_.set_attribute("/", "test", facts.test_kind);
+    file_.set_attribute("/", "device", facts.device);
+    file_.set_attribute("/", "threads", static_cast<std::int32_t>(facts.threads));
+    std::vector<std::string> names;
+    HistoryRow{}.for_each_column([&](const char* name, auto) { names.emplace_back(name); });
+    history_ = file_.make_growing<double>("/history", 1, {history_chunk, names.size()}, "see columns", false);
+    file_.set_attribute("/history", "columns", fmt::format("{}", fmt::join(names, ",")));
+    make_snapshots();
+    make_bonds();
+    make_cracks();
+    make_fragments();
+    file_.start_live();
+}
+
+void Hdf5Results::make_snapshots()
+{
+    file_.make_group("/snapshots");
+    auto& s = snapshots_;
+    s.time = file_.make_growing<double>("/snapshots/time", 1, {table_chunk}, "s", false);
+    s.step = file_.make_growing<std::int64_t>("/snapshots/step", 1, {table_chunk}, "1", false);
+    s.grain_id = file_.make_growing<std::int32_t>("/snapshots/grain_id", 1, {grain_chunk}, "1", false);
+    const auto field = [&](const char* name, hsize_t width, const char* unit) {
+        return file_.make_growing<double>(std::string("/snapshots/") + name, 2, {1, grain_chunk, width}, unit, true);
+    };
+    s.position = field("position", 3, "m");
+    s.orientation = field("orientation", 4, "1");
+    s.velocity = field("velocity", 3, "m/s");
+    s.stress = field("stress", 6, "Pa");
+    s.cluster = file_.make_growing<std::int32_t>("/snapshots/cluster", 2, {1, grain_chunk}, "1", true);
+    s.damage = file_.make_growing<double>("/snapshots/damage", 2, {1, grain_chunk}, "1", true);
+}
+
+void Hdf5Results::make_bonds()
+{
+    file_.make_group("/bonds");
+    auto& b = bonds_;
+    b.kind = file_.make_growing<std::int32_t>("/bonds/kind", 1, {bond_chunk}, "1", false);
+    b.grain_a = file_.make_growing<std::int32_t>("/bonds/grain_a", 1, {bond_chunk}, "1", false);
+    b.grain_b = file_.make_growing<std::int32_t>("/bonds/grain_b", 1, {bond_chunk}, "1", false);
+    b.area = file_.make_growing<double>("/bonds/area", 1, {bond_chunk}, "m^2", false);
+    b.normal = file_.make_growing<double>("/bonds/normal", 1, {bond_chunk, 3}, "1", false);
+    b.normal_stiffness = file_.make_growing<double>("/bonds/normal_stiffness", 1, {bond_chunk}, "Pa/m", false);
+    b.shear_stiffness = file_.make_growing<double>("/bonds/shear_stiffness", 1, {bond_chunk}, "Pa/m", false);
+    b.failure_time = file_.make_growing<double>("/bonds/failure_time", 1, {bond_chunk}, "s", false);
+    b.cause = file_.make_growing<std::int32_t>("/bonds/cause", 1, {bond_chunk}, "1", false);
+    b.damage = file_.make_growing<double>("/bonds/damage", 2, {1, bond_chunk}, "1", true);
+}
+
+void Hdf5Results::make_cracks()
+{
+    file_.make_group("/cracks");
+    const auto number = [&](const char* name, const char* unit) {
+        return file_.make_growing<double>(std::string("/cracks/") + name, 1, {table_chunk}, unit, false);
+    };
+    const auto vector = [&](const char* name, const char* unit) {
+        return file_.make_growing<double>(std::string("/cracks/") + name, 1, {table_chunk, 3}, unit, false);
+    };
+    const auto integer = [&](const char* name) {
+        return file_.make_growing<std::int32_t>(std::string("/cracks/") + name, 1, {table_chunk}, "1", false);
+    };
+    auto& c = cracks_;
+    c.time = number("time", "s");
+    c.first_damage_time = number("first_damage_time", "s");
+    c.mode = integer("mode");
+    c.cause = integer("cause");
+    c.grain_a = integer("grain_a");
+    c.grain_b = integer("grain_b");
+    c.area = number("area", "m^2");
+    c.center = vector("center", "m");
+    c.normal = vector("normal", "1");
+    c.opening = number("opening", "m");
+    c.k_i = number("K_I", "Pa m^0.5");
+    c.k_ii = number("K_II", "Pa m^0.5");
+}
+
+void Hdf5Results::make_fragments()
+{
+    file_.make_group("/fragments");
+    auto& f = fragments_;
+    f.snapshot = file_.make_growing<std::int32_t>("/fragments/snapshot", 1, {table_chunk}, "1", false);
+    f.time = file_.make_growing<double>("/fragments/time", 1, {table_chunk}, "s", false);
+    f.cluster = file_.make_growing<std::int32_t>("/fragments/cluster", 1, {table_chunk}, "1", false);
+    f.grains = file_.make_growing<std::int32_t>("/fragments/grains", 1, {table_chunk}, "1", false);
+    f.mass = file_.make_growing<double>("/fragments/mass", 1, {table_chunk}, "kg", false);
+    f.volume = file_.make_growing<double>("/fragments/volume", 1, {table_chunk}, "m^3", false);
+    f.center = file_.make_growing<double>("/fragments/center", 1, {table_chunk, 3}, "m", false);
+    f.velocity = file_.make_growing<double>("/fragments/velocity", 1, {table_chunk, 3}, "m/s", false);
+}
+
+void Hdf5Results::append_history(const HistoryRow& row)
+{
+    std::vector<double> values;
+    row.for_each_column([&](const char*, auto value) { values.push_back(static_cast<double>(value)); });
+    append_rows(history_, values, values.size());
+}
+
+void Hdf5Results::append_snapshot(const Model& model, const State& state, const SnapshotFields& fields,
+                                  const std::vector<CrackFace>& cracks)
+{
+    const hsize_t snapshot = snapshots_.time.rows();
+    const std::vector<int> order = bond_order(state);
+    append_grains(state, fields);
+    if (snapshot == 0) write_bond_table(state, order);
+    write_bond_state(state, order);
+    std::vector<double> damage;
+    for (const int i : order) {
+        const int interfaces = state.interfaces.size();
+        damage.push_back(i < interfaces ? state.interfaces.damage[i]
+                                        : (state.parallels.cause[i - interfaces] != 0 ? 1.0 : 0.0));
+    }
+    bonds_.damage.write({snapshot, 0}, {1, damage.size()}, damage);
+    bonds_.damage.flush();
+    append_cracks(cracks);
+    append_fragments(collect_fragments(model, state, fields), state, static_cast<std::int32_t>(snapshot));
+    append_rows(snapshots_.step, std::vector<std::int64_t>{state.step});
+    // Last: its length tells a live reader how many snapshots are whole.
+    append_rows(snapshots_.time, std::vector<double>{state.time});
+    last_step_ = state.step;
+}
+
+void Hdf5Results::append_grains(const State& state, const SnapshotFields& fields)
+{
+    const Bodies& bodies = state.bodies;
+    std::vector<std::pair<std::int32_t, int>> grains;  // id, body
+    for (int i = 0; i < bodies.size(); ++i) {
+        if (bodies.wall[i] < 0) grains.emplace_back(bodies.id[i], i);
+    }
+    std::sort(grains.begin(), grains.end());
+    std::vector<std::int32_t> fresh;
+    for (const auto& [id, body] : grains) {
+        if (grain_rows_.emplace(id, grain_rows_.size()).second) fresh.push_back(id);
+    }
+    append_rows(snapshots_.grain_id, fresh);
+
+    const hsize_t n = grain_rows_.size(), snapshot = snapshots_.time.rows();
+    constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> position(3 * n, absent), orientation(4 * n, absent), velocity(3 * n, absent),
+        stress(6 * n, absent), damage(n, absent);
+    std::vector<std::int32_t> cluster(n, -1);
+    const std::vector<double> bond_damage = mean_bond_damage(state);
+    const auto put = [](std::vector<double>& values, hsize_t row, std::initializer_list<double> entries) {
+        std::copy(entries.begin(), entries.end(), values.begin() + static_cast<std::ptrdiff_t>(row * entries.size()));
+    };
+    for (const auto& [id, body] : grains) {
+        const auto i = static_cast<std::size_t>(body);
+        const hsize_t row = grain_rows_.at(id);
+        const Vec3 p = bodies.position[body], v = bodies.velocity[body];
+        const Quat q = bodies.orientation[body];
+        const Mat3& s = fields.stress.at(i);
+        put(position, row, {p.x, p.y, p.z});
+        put(orientation, row, {q.w, q.x, q.y, q.z});
+        put(velocity, row, {v.x, v.y, v.z});
+        put(stress, row,
+            {s[0].x, s[1].y, s[2].z, 0.5 * (s[0].y + s[1].x), 0.5 * (s[1].z + s[2].y), 0.5 * (s[0].z + s[2].x)});
+        damage[row] = bond_damage[i];
+        cluster[row] = fields.cluster.at(i);
+    }
+    const auto store = [&](Hdf5Growing& field, const auto& values, hsize_t width) {
+        if (width == 0) field.write({snapshot, 0}, {1, n}, values);
+        if (width > 0) field.write({snapshot, 0, 0}, {1, n, width}, values);
+        field.flush();
+    };
+    store(snapshots_.position, position, 3);
+    store(snapshots_.orientation, orientation, 4);
+    store(snapshots_.velocity, velocity, 3);
+    store(snapshots_.stress, stress, 6);
+    store(snapshots_.damage, damage, 0);
+    store(snapshots_.cluster, cluster, 0);
+}
+
+void Hdf5Results::write_bond_table(const State& state, const std::vector<int>& order)
+{
+    const int interfaces = state.interfaces.size();
+    std::vector<std::int32_t> kind, grain_a, grain_b;
+    std::vector<double> area, normal, normal_stiffness, shear_stiffness;
+    const auto add = [&](const auto& bonds, int i, const BondFace& face, int of_kind) {
+        kind.push_back(of_kind);
+        grain_a.push_back(state.bodies.id[bonds.a[i]]);
+        grain_b.push_back(state.bodies.id[bonds.b[i]]);
+        area.push_back(face.area);
+        append_vec3(normal, face.normal);
+        normal_stiffness.push_back(bonds.normal_stiffness[i]);
+        shear_stiffness.push_back(bonds.shear_stiffness[i]);
+    };
+    for (const int i : order) {
+        if (i < interfaces) {
+            add(state.interfaces, i, interface_face(state, i), 0);
+        } else {
+            add(state.parallels, i - interfaces, parallel_face(state, i - interfaces), 1);
+        }
+    }
+    append_rows(bonds_.kind, kind);
+    append_rows(bonds_.grain_a, grain_a);
+    append_rows(bonds_.grain_b, grain_b);
+    append_rows(bonds_.area, area);
+    append_rows(bonds_.normal, normal, 3);
+    append_rows(bonds_.normal_stiffness, normal_stiffness);
+    append_rows(bonds_.shear_stiffness, shear_stiffness);
+}
+
+void Hdf5Results::write_bond_state(const State& state, const std::vector<int>& order)
+{
+    const int interfaces = state.interfaces.size();
+    std::vector<double> failure_time;
+    std::vector<std::int32_t> cause;
+    for (const int i : order) {
+        const bool face = i < interfaces;
+        failure_time.push_back(face ? state.interfaces.failure_time[i] : state.parallels.failure_time[i - interfaces]);
+        cause.push_back(static_cast<std::int32_t>(face ? interface_cause(state.interfaces, i)
+                                                       : parallel_cause(state.parallels, i - interfaces)));
+    }
+    bonds_.failure_time.write({0}, {order.size()}, failure_time);
+    bonds_.failure_time.flush();
+    bonds_.cause.write({0}, {order.size()}, cause);
+    bonds_.cause.flush();
+}
+
+void Hdf5Results::append_cracks(const std::vector<CrackFace>& cracks)
+{
+    // Cracks do not heal and come in the order of their times, so that those not yet stored are the last ones.
+    const auto stored = static_cast<std::ptrdiff_t>(cracks_.time.rows());
+    if (static_cast<std::ptrdiff_t>(cracks.size()) <= stored) return;
+    const std::vector<CrackFace> fresh(cracks.begin() + stored, cracks.end());
+    auto& c = cracks_;
+    append_column<double>(c.first_damage_time, fresh, [](const CrackFace& f) { return f.first_damage_time; });
+    append_column<std::int32_t>(c.mode, fresh, [](const CrackFace& f) { return f.mode; });
+    append_column<std::int32_t>(c.cause, fresh, [](const CrackFace& f) { return f.cause; });
+    append_column<std::int32_t>(c.grain_a, fresh, [](const CrackFace& f) { return f.grain_a; });
+    append_column<std::int32_t>(c.grain_b, fresh, [](const CrackFace& f) { return f.grain_b; });
+    append_column<double>(c.area, fresh, [](const CrackFace& f) { return f.area; });
+    append_vec3_column(c.center, fresh, [](const CrackFace& f) { return polygon_centroid(f.polygon); });
+    append_vec3_column(c.normal, fresh, [](const CrackFace& f) { return f.normal; });
+    append_column<double>(c.opening, fresh, [](const CrackFace& f) { return f.opening; });
+    append_column<double>(c.k_i, fresh, [](const CrackFace& f) { return f.K_I; });
+    append_column<double>(c.k_ii, fresh, [](const CrackFace& f) { return f.K_II; });
+    append_column<double>(c.time, fresh, [](const CrackFace& f) { return f.time; });
+}
+
+void Hdf5Results::append_fragments(const std::vector<Fragment>& fragments, const State& state, std::int32_t snapshot)
+{
+    auto& f = fragments_;
+    append_column<std::int32_t>(f.snapshot, fragments, [&](const Fragment&) { return snapshot; });
+    append_column<std::int32_t>(f.cluster, fragments, [](const Fragment& e) { return e.cluster; });
+    append_column<std::int32_t>(f.grains, fragments, [](const Fragment& e) { return e.grains; });
+    append_column<double>(f.mass, fragments, [](const Fragment& e) { return e.mass; });
+    append_column<double>(f.volume, fragments, [](const Fragment& e) { return e.volume; });
+    append_vec3_column(f.center, fragments, [](const Fragment& e) { return e.center; });
+    append_vec3_column(f.velocity, fragments, [](const Fragment& e) { return e.velocity; });
+    append_column<double>(f.time, fragments, [&](const Fragment&) { return state.time; });
+}
+
+void Hdf5Results::finish(const Model& model, const State& state, const SnapshotFields& fields,
+                         const std::vector<CrackFace>& cracks)
+{
+    if (last_step_ == state.step) return;
+    constexpr std::int32_t after_the_last = -1;
+    const std::vector<int> order = bond_order(state);
+    if (snapshots_.time.rows() == 0) write_bond_table(state, order);
+    write_bond_state(state, order);
+    append_cracks(cracks);
+    append_fragments(collect_fragments(model, state, fields), state, after_the_last);
+}
+
+void Hdf5Results::close()
+{
+    // The datasets first: a file with open ones stays open.
+    history_ = {};
+    snapshots_ = {};
+    bonds_ = {};
+    cracks_ = {};
+    fragments_ = {};
+    file_.close();
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// results.h5: history, snapshots, bonds, cracks and fragments in one file that can be read while it grows (schema:
+// docs/output.md).
+#pragma once
+
+#include "io/fragments.h"
+#include "io/hdf5_file.h"
+#include "io/results.h"
+
+#include <unordered_map>
+
+namespace grainfrac {
+
+/// Rises when a reader of the file has to change.
+inline constexpr std::int64_t results_schema = 1;
+
+/// The growing file. Everything given is flushed when a call returns; errors throw std::runtime_error.
+class Hdf5Results {
+public:
+    Hdf5Results(const std::filesystem::path& path, const RunFacts& facts);
+
+    void append_history(const HistoryRow& row);
+    void append_snapshot(const Model& model, const State& state, const SnapshotFields& fields,
+                         const std::vector<CrackFace>& cracks);
+    /// What happened after the last snapshot: bonds, cracks and fragments.
+    void finish(const Model& model, const State& state, const SnapshotFields& fields,
+                const std::vector<CrackFace>& cracks);
+    void close();
+
+private:
+    void make_snapshots();
+    void make_bonds();
+    void make_cracks();
+    void make_fragments();
+    void append_grains(const State& state, const SnapshotFields& fields);
+    void write_bond_table(const State& state, const std::vector<int>& order);
+    void write_bond_state(const State& state, const std::vector<int>& order);
+    void append_cracks(const std::vector<CrackFace>& cracks);
+    void append_fragments(const std::vector<Fragment>& fragments, const State& state, std::int32_t snapshot);
+
+    Hdf5File file_;
+    Hdf5Growing history_;
+    struct {
+        Hdf5Growing time, step, grain_id, position, orientation, velocity, stress, cluster, damage;
+    } snapshots_;
+    struct {
+        Hdf5Growing kind, grain_a, grain_b, area, normal, normal_stiffness, shear_stiffness, damage, failure_time,
+            cause;
+    } bonds_;
+    struct {
+        Hdf5Growing time, first_damage_time, mode, cause, grain_a, grain_b, area, center, normal, opening, k_i, k_ii;
+    } cracks_;
+    struct {
+        Hdf5Growing snapshot, time, cluster, grains, mass, volume, center, velocity;
+    } fragments_;
+    std::unordered_map<std::int32_t, hsize_t> grain_rows_;
+    std::int64_t last_step_ = -1;  // of the last snapshot
+};
+
+}  // namespace grainfrac

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/input_check.h"
+
+#include "io/input_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+namespace grainfrac {
+namespace {
+
+class Checks {
+public:
+    Checks(const Case& c, std::vector<InputProblem>& problems) : c_(c), problems_(problems)
+    {
+        for (const InputProblem& problem : problems_) {
+            for (std::string path = problem.key; !path.empty(); path = parent_path(path)) wrong_.insert(path);
+        }
+    }
+
+    void run()
+    {
+        collect_names();
+        for (std::size_t i = 0; i < c_.parts.size(); ++i) part(c_.parts[i], joined("parts", i));
+        pairs("bonds", c_.bonds);
+        pairs("contacts", c_.contacts);
+        for (std::size_t i = 0; i < c_.bonds.size(); ++i) bond(c_.bonds[i], joined("bonds", i));
+        for (std::size_t i = 0; i < c_.walls.size(); ++i) wall(c_.walls[i], joined("walls", i));
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) stage(c_.stages[i], joined("stages", i));
+        if (c_.test.kind == "brazilian" && right("test.kind")) brazilian();
+        if (c_.test.kind == "custom" && right("test.kind")) custom();
+        output();
+    }
+
+private:
+    bool given(const std::string& key) const { return c_.places.count(key) > 0; }
+    /// Nothing is wrong with the key or below it.
+    bool right(const std::string& key) const { return wrong_.count(key) == 0; }
+    void fail(const std::string& key, std::string message) { problems_.push_back({key, std::move(message)}); }
+
+    /// `names` and, if one is near, which of them was probably meant.
+    static std::string choice(const std::string& name, const std::vector<std::string>& names)
+    {
+        const std::string near = nearest(name, names);
+        const std::string hint = near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
+        return (names.empty() ? "there are none" : fmt::format("there are \"{}\"", fmt::join(names, "\", \""))) + hint;
+    }
+
+    static bool is_name(const std::string& name)
+    {
+        return !name.empty() && std::all_of(name.begin(), name.end(), [](char ch) {
+            return (ch >= 'a' && ch <= 'z') || (ch >= 'A' && ch <= 'Z') || (ch >= '0' && ch <= '9') || ch == '_' ||
+                   ch == '-';
+        });
+    }
+
+    /// Enters a name that `between` can hold; parts, materials and walls share one list, so that a name is never two
+    /// things.
+    void enter_name(const std::string& name, const std::string& key, const std::string& what)
+    {
+        if (!given(key) || !right(key) || !is_name(name)) names_right_ = false;
+        if (!given(key) || !right(key)) return;
+        if (!is_name(name))
+            return fail(key, fmt::format("the name of {} must consist of letters, digits, _ and -", what));
+        if (c_.test.kind == "brazilian" && (name == "platen" || name == "platen_top" || name == "platen_bottom")) {
+            return fail(key, "this name belongs to the platens of the brazilian test");
+        }
+        if (const auto [entry, is_new] = owner_.try_emplace(name, what); !is_new) {
+            fail(key, fmt::format("{} of this name exists already; parts, materials and walls need different names",
+                                  entry->second));
+        }
+    }
+
+    void collect_names()
+    {
+        for (const InputProblem& problem : problems_) {  // one of these is no table: there are names that are not known
+            const std::string& key = problem.key;
+            if (key == "materials" || key == "parts" || key == "walls") names_right_ = false;
+        }
+        for (const MaterialSpec& m : c_.materials) {
+            enter_name(m.name, joined("materials", m.name), "a material");
+            material_names_.push_back(m.name);
+        }
+        for (std::size_t i = 0; i < c_.parts.size(); ++i) {
+            enter_name(c_.parts[i].name, joined("parts", i) + ".name", "a part");
+        }
+        for (std::size_t i = 0; i < c_.walls.size(); ++i) {
+            enter_name(c_.walls[i].name, joined("walls", i) + ".name", "a wall");
+            wall_names_.push_back(c_.walls[i].name);
+        }
+        std::set<std::string> stages;
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) {
+            const std::string key = joined("stages", i) + ".name";
+            if (!given(key) || !right(key)) continue;
+            if (!is_name(c_.stages[i].name)) fail(key, "the name of a stage must consist of letters, digits, _ and -");
+            if (!stages.insert(c_.stages[i].name).second) fail(key, "a stage of this name exists already");
+        }
+        for (const auto& [name, what] : owner_) pair_names_.push_back(name);
+        if (c_.test.kind == "brazilian")
+            pair_names_.insert(pair_names_.end(), {"platen", "platen_top", "platen_bottom"});
+        pair_names_.emplace_back("*");
+    }
+
+    void part(const PartSpec& p, const std::string& path)
+    {
+        if (given(path + ".material") && right(path + ".material") &&
+            std::find(material_names_.begin(), material_names_.end(), p.material) == material_names_.end()) {
+            fail(path + ".material", "no such material; " + choice(p.material, material_names_));
+        }
+        if (given(path + ".file") && p.file.empty() && right(path + ".file")) fail(path + ".file", "must not be empty");
+        orientation(p.orientation, path + ".orientation");
+
+        if (p.dilation_radius && p.generator == "hexagonal_prisms" && right(path + ".dilation_radius")) {
+            const double rho = *p.dilation_radius, inradius = 0.5 * std::min(std::sqrt(3.0) * p.side, p.thickness);
+            const bool sides_right =
+                p.side > 0.0 && p.thickness > 0.0 && right(path + ".side") && right(path + ".thickness");
+            if (sides_right && inradius < 3.0 * rho) {
+                fail(
+                    path + ".dilation_radius",
+                    fmt::format(
+                        "must be <= {:.6g} m, a third of the inradius of the prism (side {:.6g} m, thickness {:.6g} m)",
+                        inradius / 3.0, p.side, p.thickness));
+            }
+        }
+    }
+
+    void orientation(const OrientationSpec& o, const std::string& path)
+    {
+        if (!given(path) || !right(path)) return;
+        const int ways = (o.choices.empty() ? 0 : 1) + (o.random.empty() ? 0 : 1) + (o.file.empty() ? 0 : 1);
+        if (ways != 1)
+            fail(path,
+                 fmt::format("has {} of choices, random, file; must have exactly one", ways == 0 ? "none" : "several"));
+    }
+
+    /// Names in `between` exist, and no two entries are for the same pair.
+    template <class Spec>
+    void pairs(const std::string& table, const std::vector<Spec>& entries)
+    {
+        std::map<std::pair<std::string, std::string>, std::string> seen;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            const std::string path = joined(table, i), key = path + ".between";
+            if (!right(key)) continue;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const std::string& name = entries[i].between[k];
+                if (!names_right_ || std::find(pair_names_.begin(), pair_names_.end(), name) != pair_names_.end())
+                    continue;
+                fail(joined(key, k), "no part, material or wall of this name; " + choice(name, pair_names_));
+            }
+            auto pair = std::minmax(entries[i].between[0], entries[i].between[1]);
+            const auto [entry, is_new] = seen.try_emplace({pair.first, pair.second}, path);
+            if (!is_new) fail(key, fmt::format("{} is for the same pair", entry->second));
+        }
+    }
+
+    void bond(const BondSpec& b, const std::string& path)
+    {
+        elasticity(b, path);
+        if (b.failure == "unbreakable" || !right(path + ".failure")) return;
+        if (b.failure == "face" && right(path + ".law") && right(path + ".softening")) {
+            if (b.law != "interface")
+                fail(path + ".failure", fmt::format("\"face\" needs law = \"interface\", not \"{}\"", b.law));
+            if (b.softening != "brittle") {
+                fail(path + ".failure", fmt::format("\"face\" needs softening = \"brittle\", not \"{}\"", b.softening));
+            }
+        }
+        if (b.residual_friction && *b.residual_friction > b.friction && right(path + ".residual_friction") &&
+            right(path + ".friction")) {
+            fail(path + ".residual_friction",
+                 fmt::format("must be <= friction, {}: broken bonds would create energy", b.friction));
+        }
+        const bool strengths_right = b.cohesion > 0.0 && right(path + ".tensile_strength") &&
+                                     right(path + ".cohesion") && right(path + ".friction") && right(path + ".onset");
+        if (b.onset == "mohr_coulomb" && strengths_right && b.tensile_strength * b.friction > b.cohesion) {
+            fail(path + ".tensile_strength",
+                 fmt::format("must be <= {:.6g} Pa, cohesion / friction, with onset = \"mohr_coulomb\"",
+                             b.cohesion / b.friction));
+        }
+    }
+
+    /// The rules of "auto" give a negative shear stiffness beyond a certain Poisson's ratio (physics/grains 9).
+    void elasticity(const BondSpec& b, const std::string& path)
+    {
+        if (b.elasticity == "homogeneous" || b.shear_ratio || !right(path + ".elasticity") ||
+            !right(path + ".shear_ratio")) {
+            return;
+        }
+        const bool plane = b.elasticity == "plane";
+        const double limit = plane ? 1.0 / 3.0 : 1.0 / 4.0;
+        for (const MaterialSpec& m : c_.materials) {
+            if (!may_join(b, m.name) || m.poisson_ratio < limit || !right(joined("materials", m.name))) continue;
+            fail(path + ".elasticity",
+                 fmt::format("\"{}\" with shear_ratio = \"auto\" needs poisson_ratio < {}; that of \"{}\" is {}",
+                             b.elasticity, plane ? "1/3" : "1/4", m.name, m.poisson_ratio));
+        }
+    }
+
+    bool may_join(const BondSpec& b, const std::string& material) const
+    {
+        return std::any_of(c_.parts.begin(), c_.parts.end(), [&](const PartSpec& p) {
+            const auto is_it = [&](const std::string& name) {
+                return name == "*" || name == p.name || name == material;
+            };
+            return p.material == material && (is_it(b.between[0]) || is_it(b.between[1]));
+        });
+    }
+
+    void wall(const WallSpec& w, const std::string& path)
+    {
+        if (w.shape == "plate" && norm2(w.normal) == 0.0 && right(path + ".normal"))
+            fail(path + ".normal", "must not be zero");
+        if (w.shape == "cylinder" && norm2(w.axis) == 0.0 && right(path + ".axis"))
+            fail(path + ".axis", "must not be zero");
+    }
+
+    void stage(const StageSpec& s, const std::string& path)
+    {
+        std::set<std::string> moved;
+        bool moves = false;
+        for (std::size_t k = 0; k < s.motions.size(); ++k) {
+            const std::string key = joined(path + ".move", k) + ".wall";
+            moves = moves || norm2(s.motions[k].velocity) > 0.0;
+            if (!given(key) || !right(key)) continue;
+            const std::string& name = s.motions[k].wall;
+            if (std::find(wall_names_.begin(), wall_names_.end(), name) == wall_names_.end()) {
+                fail(key, "no such wall; " + choice(name, wall_names_));
+            } else if (!moved.insert(name).second) {
+                fail(key, "this wall is moved already in this stage");
+            }
+        }
+        if (s.max_displacement && !moves && right(path))
+            fail(path + ".max_displacement", "no wall moves in this stage");
+    }
+
+    void brazilian()
+    {
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) {
+            fail(joined("stages", i), "a brazilian test makes its own stages; use test.kind = \"custom\"");
+        }
+        const StopSpec& stop = c_.test.stop;
+        if (right("test.stop") && !stop.load_drop && !stop.strain && !stop.time) {
+            fail("test.stop", "the run would never end; required: at least one of load_drop, strain, time");
+        }
+        if (c_.parts.empty() || !right("parts[0].region")) return;
+        const RegionSpec& region = c_.parts[0].region;
+        const std::string path = "parts[0].region";
+        if (!given(path)) return fail(path, "missing; required with test.kind = \"brazilian\": a disc or cylinder");
+        if (region.shape != "cylinder" && region.shape != "disc") {
+            return fail(path + ".shape", "must be \"disc\" or \"cylinder\" in a brazilian test");
+        }
+        if (region.axis != "z") fail(path + ".axis", "must be \"z\" in a brazilian test");
+        const auto& half_width = c_.test.contact_half_width;
+        if (half_width && *half_width > 0.5 * region.diameter && right("test.contact_half_width")) {
+            fail("test.contact_half_width",
+                 fmt::format("must be <= {:.6g} m, half the diameter of the disc", 0.5 * region.diameter));
+        }
+        if (c_.test.platen == "curved" && c_.test.platen_radius > 0.0 &&
+            c_.test.platen_radius < 0.5 * region.diameter && right("test.platen_radius")) {
+            fail("test.platen_radius",
+                 fmt::format("must be 0 or >= {:.6g} m, the radius of the disc", 0.5 * region.diameter));
+        }
+    }
+
+    /// Every stage ends, or the run does.
+    void custom()
+    {
+        if (c_.stages.empty()) {
+            if (right("stages"))
+                fail("stages", "missing; required with test.kind = \"custom\": at least one [[stages]]");
+            return;
+        }
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) {
+            const StageSpec& s = c_.stages[i];
+            const bool ends = s.duration || s.unbalanced_force_ratio || s.load_drop || s.max_displacement;
+            const bool last = i + 1 == c_.stages.size();
+            if (ends || (last && c_.test.stop.time) || !right(joined("stages", i)) || !right("test.stop")) continue;
+            fail(joined("stages", i),
+                 fmt::format("never ends; required: at least one of duration, unbalanced_force_ratio, load_drop, "
+                             "max_displacement{}",
+                             last ? ", or test.stop.time" : ""));
+        }
+    }
+
+    void output()
+    {
+        const OutputSpec& o = c_.output;
+        if (o.every && o.snapshots) return fail("output.snapshots", "give either every or snapshots, not both");
+        const bool has_end =
+            c_.test.stop.time ||
+            std::any_of(c_.stages.begin(), c_.stages.end(), [](const StageSpec& s) { return s.duration.has_value(); });
+        if (o.snapshots && !has_end && right("test.stop") && right("stages")) {
+            fail("output.snapshots", "needs test.stop.time or a stage with a duration; or give every");
+        }
+    }
+
+    const Case& c_;
+    std::vector<InputProblem>& problems_;
+    std::set<std::string> wrong_;               ///< paths of problems and of the tables around them
+    std::map<std::string, std::string> owner_;  ///< names that `between` can hold, and what they name
+    bool names_right_ = true;                   ///< else a name that is not there is not worth a message
+    std::vector<std::string> material_names_, wall_names_, pair_names_;
+};
+
+}  // namespace
+
+void check_case(const Case& c, std::vector<InputProblem>& problems)
+{
+    Checks(c, problems).run();
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every key of the input file, told once: name, member, unit, allowed values, meaning, source. Defaults are those of
+// the structs in model/case.h. The reader, the writer of resolved.toml and the generator of docs/input.md walk these
+// descriptions with a visitor V:
+//   v("key", member, Facts{...})        a value
+//   v.table("key", member, Facts{...})  a sub-table
+//   v.array("key", vector, Facts{...})  an array of tables, [[key]]
+//   v.named("key", vector, Facts{...})  tables with names, [key.NAME]
+// A new key is a member in case.h and a line here.
+#pragma once
+
+#include "model/case.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace grainfrac {
+
+/// Allowed values of a number, in the SI unit of its key.
+struct Range {
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    bool above = false;  ///< `least` itself is not allowed
+    bool below = false;  ///< `most` itself is not allowed
+};
+inline constexpr Range any_value{};
+inline constexpr Range positive{.least = 0.0, .above = true};
+inline constexpr Range not_negative{.least = 0.0};
+inline constexpr Range share{.least = 0.0, .most = 1.0};
+inline constexpr Range share_above_0{.least = 0.0, .most = 1.0, .above = true};
+inline constexpr Range share_below_1{.least = 0.0, .most = 1.0, .below = true};
+inline constexpr Range at_least_1{.least = 1.0};
+
+/// Whether something holds for the table's other values, and how a message says so ("" where it is always so).
+struct Condition {
+    bool holds;
+    const char* text = "";
+};
+inline constexpr Condition always{true};
+inline constexpr Condition never{false};
+
+struct Facts {
+    const char* unit = "1";  ///< SI unit; "1": none
+    Range range = any_value;
+    const char* words = "";  ///< allowed texts: "columnar | half | AA = columnar"; "": any text
+    Condition required = never;
+    Condition used = always;  ///< else left out of resolved.toml and, if it has a text, refused
+    const char* unset = "";   ///< optional members: what "auto" stands for
+    const char* meaning = "";
+    const char* source = "";
+};
+
+struct Word {
+    std::string typed, meant;  ///< "AA", "columnar"; the same but for an alias
+};
+std::vector<Word> words_of(const Facts& facts);
+bool in_range(double value, const Range& range);
+/// "> 0 m", ">= 0 and <= 1", "" if all is allowed.
+std::string range_text(const Facts& facts);
+
+/// What a key takes, for messages: `a quantity > 0 m such as "1 m"`, `one of "x", "y"`.
+std::string expected(const double& member, const Facts& facts);
+std::string expected(const std::optional<double>& member, const Facts& facts);
+std::string expected(const int& member, const Facts& facts);
+std::string expected(const std::int64_t& member, const Facts& facts);
+std::string expected(const std::optional<std::int64_t>& member, const Facts& facts);
+std::string expected(const bool& member, const Facts& facts);
+std::string expected(const std::string& member, const Facts& facts);
+std::string expected(const Vec3& member, const Facts& facts);
+std::string expected(const std::array<double, 2>& member, const Facts& facts);
+std::string expected(const std::vector<double>& member, const Facts& facts);
+std::string expected(const std::array<std::string, 2>& member, const Facts& facts);
+
+template <class V>
+void describe(V& v, SimulationSpec& s)
+{
+    v("title", s.title, {.meaning = "for the report and the plots"});
+    v("seed", s.seed, {.range = not_negative, .meaning = "every random draw follows from it"});
+}
+
+template <class V>
+void describe(V& v, MaterialSpec& s)
+{
+    v("density", s.density, {.unit = "kg/m^3", .range = positive, .required = always, .meaning = "mass per volume"});
+    v("young_modulus", s.young_modulus,
+      {.unit = "Pa", .range = positive, .required = always, .meaning = "Young's modulus E of the polycrystal"});
+    v("poisson_ratio", s.poisson_ratio,
+      {.range = {-1.0, 0.5, true, true},
+       .required = always,
+       .meaning = "Poisson's ratio nu; enters the `auto` stiffness of bonds"});
+}
+
+template <class V>
+void describe(V& v, RegionSpec& s)
+{
+    const bool is_round = s.shape == "cylinder" || s.shape == "disc";
+    const Condition round{is_round, "shape = \"cylinder\" or \"disc\""},
+        cuboid{!is_round, "shape = \"box\" or \"beam\""};
+    v("shape", s.shape,
+      {.words = "box | beam | cylinder | disc",
+       .required = always,
+       .meaning = "box and beam are cuboids, cylinder and disc circular cylinders"});
+    v("center", s.center, {.unit = "m", .meaning = "centre of the region"});
+    v("size", s.size,
+      {.unit = "m", .range = positive, .required = always, .used = cuboid, .meaning = "full edge lengths"});
+    v("diameter", s.diameter,
+      {.unit = "m", .range = positive, .required = always, .used = round, .meaning = "of the circle"});
+    v("height", s.height,
+      {.unit = "m", .range = positive, .required = always, .used = round, .meaning = "length along the axis"});
+    v("axis", s.axis, {.words = "x | y | z", .used = round, .meaning = "direction of the axis"});
+    v("facets", s.facets,
+      {.range = {8.0, 10000.0}, .used = round, .meaning = "sides of the prism that stands for the circle"});
+}
+
+template <class V>
+void describe(V& v, OrientationSpec& s)
+{
+    v("choices", s.choices,
+      {.unit = "rad",
+       .used = {!s.choices.empty()},
+       .meaning = "angles about `about`; one is drawn for each grain",
+       .source = "Saleme Ruiz 2016, 2.2.2"});
+    v("about", s.about,
+      {.words = "x | y | z", .used = {!s.choices.empty(), "choices"}, .meaning = "axis of the choices"});
+    v("random", s.random,
+      {.words = "uniform | c-fibre",
+       .used = {!s.random.empty()},
+       .meaning = "uniform: any rotation is as likely as any other; c-fibre: uniform angle about z"});
+    v("file", s.file,
+      {.used = {!s.file.empty()},
+       .meaning = "text file beside the input file, one quaternion `w x y z` a line and grain"});
+}
+
+template <class V>
+void describe(V& v, PartSpec& s)
+{
+    const Condition prisms{s.generator == "hexagonal_prisms", "generator = \"hexagonal_prisms\""};
+    const Condition from_file{s.generator == "file", "generator = \"file\""};
+    const OrientationSpec& o = s.orientation;
+    const bool has_orientation = !(o.choices.empty() && o.random.empty() && o.file.empty());
+    const bool has_region = s.region.diameter > 0.0 || norm2(s.region.size) > 0.0;
+    v("name", s.name, {.required = always, .meaning = "for `between` and the results; letters, digits, `_`, `-`"});
+    v("kind", s.kind, {.words = "grains", .meaning = "grains: rigid polyhedra"});
+    v("material", s.material, {.required = always, .meaning = "name of a `[materials.NAME]`"});
+    v("generator", s.generator, {.words = "hexagonal_prisms | file", .meaning = "what makes the grains"});
+    v("file", s.file,
+      {.required = always,
+       .used = from_file,
+       .meaning = "a microstructure written by `grainfrac generate`, beside the input file"});
+    v("side", s.side,
+      {.unit = "m",
+       .range = positive,
+       .required = always,
+       .used = prisms,
+       .meaning = "edge r of the hexagon",
+       .source = "Saleme Ruiz 2016, Table 2.2"});
+    v("thickness", s.thickness,
+      {.unit = "m",
+       .range = positive,
+       .required = always,
+       .used = prisms,
+       .meaning = "full height t of a grain",
+       .source = "Saleme Ruiz 2016, Table 2.2"});
+    v("stacking", s.stacking,
+      {.words = "columnar | half | hollow | AA = columnar | AB = hollow",
+       .used = prisms,
+       .meaning =
+           "shift of every second layer: none, half a pitch along a row, or onto the hollow between three prisms",
+       .source = "Saleme Ruiz 2016, Table 2.1"});
+    v("lattice", s.lattice,
+      {.words = "nominal | contained",
+       .used = prisms,
+       .meaning =
+           "number of rows and columns: those of the source, which may overshoot the region, or only what fits inside",
+       .source = "Saleme Ruiz 2016, App. A"});
+    v("dilation_radius", s.dilation_radius,
+      {.unit = "m",
+       .range = positive,
+       .unset = "0.04 of the mean inradius",
+       .meaning =
+           "rounding radius rho of edges and corners for contacts; the inradius of a grain must be at least 3 rho",
+       .source = "Saleme Ruiz 2016, 2.3.1"});
+    v("sliver_fraction", s.sliver_fraction,
+      {.range = {0.0, 0.5, false, true},
+       .meaning = "cut cells below this share of a whole cell's volume are given to their neighbours"});
+    v.table("region", s.region,
+            {.required = prisms,
+             .used = {prisms.holds || has_region},
+             .meaning = "where the grains are; a brazilian test takes the specimen's size from it"});
+    v("at_region_boundary", s.at_region_boundary,
+      {.words = "keep | cut",
+       .meaning = "keep: whole grains whose centre is inside; cut: grains are cut by the region's surface"});
+    v.table("orientation", s.orientation,
+            {.used = {has_orientation},
+             .meaning = "crystal orientation of the grains, exactly one of `choices`, `random`, `file`; left out: all "
+                        "aligned with the axes (`choices = [0]`)"});
+    v("velocity", s.velocity, {.unit = "m/s", .meaning = "initial velocity"});
+    v("angular_velocity", s.angular_velocity,
+      {.unit = "rad/s", .meaning = "initial angular velocity of each grain about its own centre"});
+}
+
+template <class V>
+void describe(V& v, BondSpec& s)
+{
+    const bool breakable = s.failure != "unbreakable";
+    const Condition strengths{breakable, "failure = \"point\" or \"face\""};
+    const Condition energies{breakable && s.softening == "bilinear", "softening = \"bilinear\""};
+    v("between", s.between, {.meaning = "two names of parts, materials or walls, or `*`"});
+    v("law", s.law,
+      {.words = "interface | parallel | point",
+       .meaning =
+           "interface: integrated over the shared face; parallel: circular parallel bond; point: one spring a face",
+       .source = "parallel: Potyondy & Cundall 2004; point: Saleme Ruiz 2016, 2.3.3"});
+    v("normal_stiffness", s.normal_stiffness,
+      {.unit = "Pa/m",
+       .range = positive,
+       .unset = "from `elasticity`, E and the distance h of the centres",
+       .meaning = "stiffness per area k_n"});
+    v("shear_ratio", s.shear_ratio,
+      {.range = not_negative, .unset = "from `elasticity` and nu", .meaning = "k_s / k_n"});
+    v("elasticity", s.elasticity,
+      {.words = "homogeneous | plane | solid",
+       .meaning = "rule of `auto`: homogeneous k_n = k_s = E/h (nu = 0, exact); plane: honeycomb in plane stress, nu < "
+                  "1/3; solid: isotropic tessellation, nu < 1/4",
+       .source = "Kawai 1978; Bolander & Saito 1998; Asahina et al. 2017"});
+    v("failure", s.failure,
+      {.words = "unbreakable | point | face",
+       .meaning = "point: each integration point by itself; face: the whole face with its worst corner (law interface, "
+                  "softening brittle)"});
+    v("softening", s.softening,
+      {.words = "brittle | bilinear",
+       .meaning = "brittle: all is lost at onset; bilinear: linear loss over the fracture energy",
+       .source = "bilinear: Camanho & Davila 2002"});
+    v("onset", s.onset,
+      {.words = "mohr_coulomb | quadratic",
+       .meaning = "mohr_coulomb: with tension cut-off; quadratic: (sigma/sigma_c)^2 + (tau/c)^2 = 1 in tension",
+       .source = "Camanho & Davila 2002"});
+    v("tensile_strength", s.tensile_strength,
+      {.unit = "Pa",
+       .range = positive,
+       .required = strengths,
+       .used = {s.tensile_strength > 0.0},
+       .meaning = "sigma_c; at most cohesion/friction with mohr_coulomb"});
+    v("cohesion", s.cohesion,
+      {.unit = "Pa",
+       .range = positive,
+       .required = strengths,
+       .used = {s.cohesion > 0.0},
+       .meaning = "shear strength c without normal stress"});
+    v("friction", s.friction, {.range = not_negative, .meaning = "tan(phi) of the onset surface"});
+    v("residual_friction", s.residual_friction,
+      {.range = not_negative,
+       .unset = "`friction`",
+       .meaning = "mu_r of broken points, at most `friction` (else breaking could create energy)",
+       .source = "Alfano & Sacco 2006"});
+    v("fracture_energy_I", s.fracture_energy_I,
+      {.unit = "J/m^2",
+       .range = positive,
+       .required = energies,
+       .used = {s.fracture_energy_I > 0.0},
+       .meaning = "G_I, mode I"});
+    v("fracture_energy_II", s.fracture_energy_II,
+      {.unit = "J/m^2",
+       .range = positive,
+       .required = energies,
+       .used = {s.fracture_energy_II > 0.0},
+       .meaning = "G_II, mode II"});
+    v("mixed_mode", s.mixed_mode,
+      {.words = "bk | power",
+       .meaning = "energy between the modes: bk G_I + (G_II - G_I) B^eta, or the power law",
+       .source = "Benzeggagh & Kenane 1996"});
+    v("mixed_mode_exponent", s.mixed_mode_exponent, {.range = positive, .meaning = "eta of bk, alpha of power"});
+    v("quadrature", s.quadrature,
+      {.words = "auto | cross | fan3 | fan7 | gauss2 | gauss3 | gauss4 | gauss6 | gauss8 | lobatto3 | lobatto4 | "
+                "lobatto5 | lobatto6 | lobatto8",
+       .meaning = "integration points of a face; auto: 4x4 Gauss on quadrilaterals, fan7 on others"});
+    v("damping", s.damping, {.range = share, .meaning = "zeta, share of critical damping of the bond's own vibration"});
+    v("weibull_modulus", s.weibull_modulus,
+      {.range = positive,
+       .unset = "no scatter",
+       .meaning = "m of the scatter of strength, one draw a face",
+       .source = "Weibull 1951"});
+    v("weibull_area", s.weibull_area,
+      {.unit = "m^2",
+       .range = positive,
+       .unset = "mean face",
+       .meaning = "reference area A_0 of the size effect",
+       .source = "Weibull 1951"});
+    v("weibull_scales_energy", s.weibull_scales_energy,
+      {.meaning = "fracture energies scale with the square of the strength factor (same process zone)"});
+    v("misorientation_angle", s.misorientation_angle,
+      {.unit = "rad",
+       .range = positive,
+       .unset = "no dependence on orientation",
+       .meaning = "theta_m of the grain-boundary energy",
+       .source = "Read & Shockley 1950"});
+    v("misorientation_effect", s.misorientation_effect,
+      {.range = share_below_1,
+       .meaning = "chi, share of the fracture energy that a boundary of large angle lacks",
+       .source = "Rice & Wang 1989"});
+    v("moment_contribution", s.moment_contribution,
+      {.range = share,
+       .meaning = "parallel, point: beta, share of the bending and twisting moments in the stress",
+       .source = "Potyondy & Cundall 2004"});
+    v("bond_radius", s.bond_radius,
+      {.unit = "m",
+       .range = positive,
+       .unset = "parallel: circle with the face's area; point: dilation radius",
+       .meaning = "parallel, point: radius of the bond's section",
+       .source = "Saleme Ruiz 2016, eq. 2.10"});
+}
+
+template <class V>
+void describe(V& v, ContactSpec& s)
+{
+    v("between", s.between, {.meaning = "two names of parts, materials or walls, or `*`"});
+    v("law", s.law,
+      {.words = "linear",
+       .meaning = "linear: springs along and across the normal, Coulomb cap",
+       .source = "Cundall & Strack 1979"});
+    v("normal_stiffness", s.normal_stiffness,
+      {.unit = "Pa/m",
+       .range = positive,
+       .unset = "E/h, ten times that against walls",
+       .meaning = "stiffness per area k_c"});
+    v("shear_ratio", s.shear_ratio,
+      {.range = not_negative,
+       .meaning = "shear over normal stiffness",
+       .source = "Saleme Ruiz 2016, Table 2.4 (2000/5000)"});
+    v("friction", s.friction, {.range = not_negative, .meaning = "Coulomb's mu"});
+    v("dissipation", s.dissipation,
+      {.words = "hysteretic | viscous | none",
+       .meaning = "hysteretic: unloading is stiffer by 1/e^2; viscous: dashpot for the same e",
+       .source = "hysteretic: Walton & Braun 1986"});
+    v("restitution", s.restitution,
+      {.range = share_above_0, .meaning = "coefficient of restitution e of a head-on collision"});
+    v("rolling_friction", s.rolling_friction,
+      {.range = not_negative,
+       .meaning = "rolling resistance of contacts at a single point",
+       .source = "Saleme Ruiz 2016, eq. 2.5"});
+    v("reference_area", s.reference_area,
+      {.unit = "m^2",
+       .range = positive,
+       .unset = "a quarter of the smaller face",
+       .meaning = "area A_ref that a contact at a single point stands for"});
+}
+
+template <class V>
+void describe(V& v, WallSpec& s)
+{
+    const Condition plate{s.shape == "plate", "shape = \"plate\""},
+        cylinder{s.shape == "cylinder", "shape = \"cylinder\""};
+    const Condition curved{!plate.holds, "shape = \"cylinder\" or \"sphere\""};
+    v("name", s.name,
+      {.required = always, .meaning = "for `between`, `move` and the results; letters, digits, `_`, `-`"});
+    v("shape", s.shape, {.words = "plate | cylinder | sphere", .meaning = "rigid body"});
+    v("center", s.center, {.unit = "m", .meaning = "plate: centre of its loaded face; others: centre"});
+    v("normal", s.normal, {.used = plate, .meaning = "direction of the loaded face, to the specimen"});
+    v("axis", s.axis, {.used = cylinder, .meaning = "direction of its axis"});
+    v("size", s.size,
+      {.unit = "m",
+       .range = positive,
+       .required = always,
+       .used = plate,
+       .meaning = "extents along its two in-plane directions"});
+    v("thickness", s.thickness,
+      {.unit = "m", .range = not_negative, .used = plate, .meaning = "0: a tenth of the larger extent"});
+    v("radius", s.radius,
+      {.unit = "m", .range = positive, .required = always, .used = curved, .meaning = "of the surface"});
+    v("length", s.length,
+      {.unit = "m", .range = positive, .required = always, .used = cylinder, .meaning = "along the axis"});
+    v("velocity", s.velocity, {.unit = "m/s", .meaning = "velocity, unless a stage says otherwise"});
+    v("ramp", s.ramp,
+      {.unit = "s", .range = not_negative, .meaning = "time over which the speed rises smoothly from 0"});
+}
+
+template <class V>
+void describe(V& v, StageMotion& s)
+{
+    v("wall", s.wall, {.required = always, .meaning = "name of a wall"});
+    v("velocity", s.velocity, {.unit = "m/s", .required = always, .meaning = "its velocity in this stage"});
+}
+
+template <class V>
+void describe(V& v, StageSpec& s)
+{
+    v("name", s.name, {.required = always, .meaning = "for the log and the results; letters, digits, `_`, `-`"});
+    v.array("move", s.motions, {.meaning = "walls that move in this stage; those not named stand still"});
+    v("ramp", s.ramp, {.unit = "s", .range = not_negative, .meaning = "time over which the speeds change smoothly"});
+    v("local_damping", s.local_damping,
+      {.range = share_below_1,
+       .meaning = "alpha of the local non-viscous damping in this stage; for settling only",
+       .source = "Cundall 1987"});
+    v("fracture", s.fracture, {.meaning = "bonds may break in this stage"});
+    v("duration", s.duration, {.unit = "s", .range = positive, .unset = "no limit", .meaning = "ends after this time"});
+    v("unbalanced_force_ratio", s.unbalanced_force_ratio,
+      {.range = positive,
+       .unset = "not looked at",
+       .meaning = "ends when the unbalanced force is below this share of the mean contact force"});
+    v("load_drop", s.load_drop,
+      {.range = share_above_0,
+       .unset = "not looked at",
+       .meaning = "ends when the load fell by this share of its peak"});
+    v("max_displacement", s.max_displacement,
+      {.unit = "m",
+       .range = positive,
+       .unset = "not looked at",
+       .meaning = "ends when the first moving wall went this far"});
+}
+
+template <class V>
+void describe(V& v, StopSpec& s)
+{
+    v("load_drop", s.load_drop,
+      {.range = share_above_0, .unset = "not looked at", .meaning = "when the load fell by this share of its peak"});
+    v("strain", s.strain,
+      {.range = positive,
+       .unset = "not looked at",
+       .meaning = "when the platens came closer by this share of the specimen's size"});
+    v("time", s.time, {.unit = "s", .range = positive, .unset = "no limit", .meaning = "at this simulated time"});
+}
+
+template <class V>
+void describe(V& v, TestSpec& s)
+{
+    const Condition brazilian{s.kind == "brazilian", "kind = \"brazilian\""};
+    v("kind", s.kind,
+      {.words = "brazilian | custom",
+       .meaning =
+           "brazilian: a disc pressed along its diameter, platens are made; custom: `[[walls]]` and `[[stages]]`"});
+    v("platen_speed", s.platen_speed,
+      {.unit = "m/s",
+       .range = positive,
+       .required = always,
+       .used = brazilian,
+       .meaning = "closing speed of the two platens together"});
+    v("platen", s.platen, {.words = "flat | curved", .used = brazilian, .meaning = "shape of the loaded face"});
+    v("platen_radius", s.platen_radius,
+      {.unit = "m",
+       .range = not_negative,
+       .used = brazilian,
+       .meaning = "platen `curved`; 0: 1.5 specimen radii",
+       .source = "ISRM 1978"});
+    v("contact_half_width", s.contact_half_width,
+      {.unit = "m",
+       .range = positive,
+       .used = brazilian,
+       .unset = "0.05 of the diameter",
+       .meaning = "platen `flat`: half width of the platen",
+       .source = "Hondros 1959"});
+    v("direction", s.direction, {.words = "x | y", .used = brazilian, .meaning = "axis of loading"});
+    v("ramp", s.ramp,
+      {.unit = "s",
+       .range = not_negative,
+       .used = brazilian,
+       .unset = "10 D/c0, c0 = sqrt(E/density)",
+       .meaning = "time over which the speed rises smoothly from 0"});
+    v.table("stop", s.stop, {.meaning = "when the run ends, whichever comes first"});
+}
+
+template <class V>
+void describe(V& v, ControlSpec& s)
+{
+    v("time_step_safety", s.time_step_safety, {.range = share_above_0, .meaning = "share of the critical time step"});
+    v("time_step", s.time_step,
+      {.unit = "s",
+       .range = positive,
+       .unset = "`time_step_safety` of the critical one",
+       .meaning = "a fixed time step"});
+    v("local_damping", s.local_damping,
+      {.range = share_below_1,
+       .meaning = "alpha of the local non-viscous damping; not for dynamic tests",
+       .source = "Cundall 1987"});
+    v("gravity", s.gravity, {.unit = "m/s^2", .meaning = "acceleration of gravity"});
+    v("skin", s.skin,
+      {.unit = "m",
+       .range = positive,
+       .unset = "chosen from the grain size",
+       .meaning = "reach of the neighbour list beyond contact; speed only, not results"});
+}
+
+template <class V>
+void describe(V& v, OutputSpec& s)
+{
+    v("every", s.every,
+      {.unit = "s",
+       .range = positive,
+       .unset = "first and last state only, or `snapshots`",
+       .meaning = "simulated time between snapshots"});
+    v("snapshots", s.snapshots,
+      {.range = {1.0, 1e6},
+       .unset = "`every`",
+       .meaning = "or their number; needs `test.stop.time` or a stage with a duration"});
+    v("history", s.history,
+      {.unit = "s",
+       .range = positive,
+       .unset = "a thousandth of the run, or 100 steps",
+       .meaning = "simulated time between rows of history.csv"});
+    v("checkpoint", s.checkpoint,
+      {.unit = "s", .range = not_negative, .meaning = "wall time between checkpoints; 0: never"});
+    v("contacts", s.contacts, {.meaning = "write paraview/contacts.pvd"});
+}
+
+template <class V>
+void describe(V& v, Case& c)
+{
+    v.table("simulation", c.simulation, {.meaning = "what the run is called and where its random numbers start"});
+    v.named("materials", c.materials, {.meaning = "materials, each with a name of its own"});
+    v.array("parts", c.parts, {.required = always, .meaning = "what is simulated; at least one"});
+    v.array("bonds", c.bonds, {.meaning = "what holds grains together; without an entry that fits, they are loose"});
+    v.array("contacts", c.contacts, {.meaning = "how grains push on each other and on walls"});
+    v.array("walls", c.walls, {.meaning = "rigid bodies with a prescribed motion"});
+    v.array("stages", c.stages,
+            {.meaning = "test `custom`: one after the other, each until the first of its end conditions"});
+    v.table("test", c.test, {.meaning = "a ready-made experiment: places platens, loads, measures"});
+    v.table("control", c.control, {.meaning = "time step, damping, gravity"});
+    v.table("output", c.output, {.meaning = "what is written and how often"});
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/paraview.h"
+
+#include "io/atomic_file.h"
+#include "io/bond_faces.h"
+#include "io/shape_surface.h"
+
+#include <fmt/format.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace grainfrac {
+
+namespace {
+
+// ---- arrays
+
+template <class Array, std::size_t n, class Value>
+void add_columns(vtkFieldData* data, const char* name, const std::vector<int>& rows, Value&& value)
+{
+    vtkNew<Array> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(static_cast<int>(n));
+    array->SetNumberOfTuples(static_cast<vtkIdType>(rows.size()));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto tuple = value(rows[k]);
+        for (std::size_t c = 0; c < n; ++c)
+            array->SetTypedComponent(static_cast<vtkIdType>(k), static_cast<int>(c), tuple[c]);
+    }
+    data->AddArray(array);
+}
+
+/// Cell array of `value(row)` over `rows`.
+template <class Value>
+void add_numbers(vtkFieldData* data, const char* name, const std::vector<int>& rows, Value&& value)
+{
+    add_columns<vtkDoubleArray, 1>(data, name, rows, [&](int i) { return std::array<double, 1>{value(i)}; });
+}
+template <class Value>
+void add_integers(vtkFieldData* data, const char* name, const std::vector<int>& rows, Value&& value)
+{
+    add_columns<vtkIntArray, 1>(data, name, rows,
+                                [&](int i) { return std::array<int, 1>{static_cast<int>(value(i))}; });
+}
+template <class Value>
+void add_vectors(vtkFieldData* data, const char* name, const std::vector<int>& rows, Value&& value)
+{
+    add_columns<vtkDoubleArray, 3>(data, name, rows, [&](int i) {
+        const Vec3 v = value(i);
+        return std::array<double, 3>{v.x, v.y, v.z};
+    });
+}
+
+void add_time(vtkDataObject* object, const State& state)
+{
+    add_numbers(object->GetFieldData(), "TimeValue", {0}, [&](int) { return state.time; });
+}
+
+void add_names(vtkDataObject* object, const char* name, const std::vector<std::string>& texts)
+{
+    vtkNew<vtkStringArray> array;
+    array->SetName(name);
+    for (const std::string& text : texts) array->InsertNextValue(text);
+    object->GetFieldData()->AddArray(array);
+}
+
+std::vector<int> all_rows(std::size_t n)
+{
+    std::vector<int> rows(n);
+    for (std::size_t i = 0; i < n; ++i) rows[i] = static_cast<int>(i);
+    return rows;
+}
+
+void add_point(vtkPoints* points, const Vec3& p)
+{
+    points->InsertNextPoint(p.x, p.y, p.z);
+}
+
+// ---- files
+
+/// zlib at its quickest: half the size of LZ4, and other programs than VTK read it too.
+template <class Writer, class Data>
+void write_xml(const std::filesystem::path& path, Data* data)
+{
+    std::string complaint;
+    vtkNew<vtkCallbackCommand> listener;
+    listener->SetClientData(&complaint);
+    listener->SetCallback([](vtkObject*, unsigned long, void* text, void* message) {
+        if (message != nullptr) *static_cast<std::string*>(text) += static_cast<const char*>(message);
+    });
+    vtkNew<Writer> writer;
+    writer->AddObserver("ErrorEvent", listener);
+    writer->SetInputData(data);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(1);
+    writer->WriteToOutputStringOn();
+    if (writer->Write() == 0 || !complaint.empty())
+        throw std::runtime_error(path.string() + ": VTK cannot write it: " + complaint);
+    write_file(path, writer->GetOutputString());
+}
+
+// ---- grains
+
+std::vector<int> grain_rows(const Model& model, const State& state)
+{
+    std::vector<int> rows;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        const auto id = static_cast<std::size_t>(state.bodies.id[i]);
+        if (state.bodies.wall[i] < 0 && id < model.grain_shapes.size() && !model.grain_shapes[id].faces.empty())
+            rows.push_back(i);
+    }
+    return rows;
+}
+
+void add_grain_cell(vtkUnstructuredGrid* grid, vtkPoints* points, const Polyhedron& shape, const Vec3& position,
+                    const Quat& orientation)
+{
+    const vtkIdType first = points->GetNumberOfPoints();
+    std::vector<vtkIdType> corners, faces;
+    for (const Vec3& v : shape.vertices) {
+        corners.push_back(points->GetNumberOfPoints());
+        add_point(points, position + rotate(orientation, v));
+    }
+    for (const auto& loop : shape.faces) {
+        faces.push_back(static_cast<vtkIdType>(loop.size()));
+        for (const int v : loop) faces.push_back(first + v);
+    }
+    grid->InsertNextCell(VTK_POLYHEDRON, static_cast<vtkIdType>(corners.size()), corners.data(),
+                         static_cast<vtkIdType>(shape.faces.size()), faces.data());
+}
+
+void add_grain_identity(vtkFieldData* data, const Model& model, const State& state, const SnapshotFields& fields,
+                        const std::vector<int>& rows)
+{
+    const Bodies& bodies = state.bodies;
+    add_integers(data, "grain_id", rows, [&](int i) { return bodies.id[i]; });
+    add_integers(data, "fragment_of", rows, [&](int i) { return bodies.id[i]; });  // no grain splits yet
+    add_integers(data, "material", rows,
+                 [&](int i) { return model.groups.at(static_cast<std::size_t>(bodies.group[i])).material; });
+    add_integers(data, "cluster", rows, [&](int i) { return fields.cluster.at(static_cast<std::size_t>(i)); });
+    add_columns<vtkDoubleArray, 4>(data, "crystal_orientation", rows, [&](int i) {
+        const Quat q = bodies.orientation[i] * bodies.crystal[i];
+        return std::array<double, 4>{q.w, q.x, q.y, q.z};
+    });
+    const std::vector<double> damage = mean_bond_damage(state);
+    add_numbers(data, "damage", rows, [&](int i) { return damage[static_cast<std::size_t>(i)]; });
+}
+
+void add_grain_motion(vtkFieldData* data, const Bodies& bodies, const std::vector<int>& rows)
+{
+    add_vectors(data, "velocity", rows, [&](int i) { return bodies.velocity[i]; });
+    add_vectors(data, "angular_velocity", rows, [&](int i) { return bodies.angular_velocity[i]; });
+    add_vectors(data, "displacement", rows, [&](int i) { return bodies.position[i] - bodies.start_position[i]; });
+    add_vectors(data, "rotation", rows,
+                [&](int i) { return rotation_vector(bodies.orientation[i] * conjugate(bodies.start_orientation[i])); });
+}
+
+struct Principal {
+    Vec3 value;      ///< largest first [Pa]
+    Vec3 direction;  ///< of the largest [-]
+};
+
+Principal principal_stress(const Mat3& stress)
+{
+    double rows[3][3], values[3], vectors[3][3];
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) rows[i][j] = 0.5 * (stress[i][j] + stress[j][i]);
+    }
+    double* a[] = {rows[0], rows[1], rows[2]};
+    double* v[] = {vectors[0], vectors[1], vectors[2]};
+    vtkMath::Jacobi(a, values, v);  // sorts the values, largest first
+    return {{values[0], values[1], values[2]}, {vectors[0][0], vectors[1][0], vectors[2][0]}};
+}
+
+double von_mises(const Mat3& s)
+{
+    const double xy = 0.5 * (s[0].y + s[1].x), yz = 0.5 * (s[1].z + s[2].y), xz = 0.5 * (s[0].z + s[2].x);
+    const double d0 = s[0].x - s[1].y, d1 = s[1].y - s[2].z, d2 = s[2].z - s[0].x;
+    return std::sqrt(0.5 * (d0 * d0 + d1 * d1 + d2 * d2) + 3.0 * (xy * xy + yz * yz + xz * xz));
+}
+
+void add_grain_stress(vtkFieldData* data, const std::vector<Mat3>& stress, const std::vector<int>& rows)
+{
+    const auto of = [&](int i) -> const Mat3& { return stress.at(static_cast<std::size_t>(i)); };
+    add_columns<vtkDoubleArray, 6>(data, "stress", rows, [&](int i) {
+        const Mat3& s = of(i);
+        return std::array<double, 6>{
+            s[0].x, s[1].y, s[2].z, 0.5 * (s[0].y + s[1].x), 0.5 * (s[1].z + s[2].y), 0.5 * (s[0].z + s[2].x)};
+    });
+    const char* names[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+    for (int c = 0; c < 6; ++c) data->GetAbstractArray("stress")->SetComponentName(c, names[c]);
+    add_numbers(data, "pressure", rows, [&](int i) { return trace(of(i)) / 3.0; });
+    add_numbers(data, "von_mises", rows, [&](int i) { return von_mises(of(i)); });
+    std::vector<Principal> principal(stress.size());
+    for (const int i : rows) principal[static_cast<std::size_t>(i)] = principal_stress(of(i));
+    add_vectors(data, "principal_stress", rows, [&](int i) { return principal[static_cast<std::size_t>(i)].value; });
+    add_vectors(data, "principal_direction_1", rows,
+                [&](int i) { return principal[static_cast<std::size_t>(i)].direction; });
+}
+
+// ---- polygons
+
+void add_polygon(vtkPoints* points, vtkCellArray* polygons, const std::vector<Vec3>& polygon)
+{
+    polygons->InsertNextCell(static_cast<int>(polygon.size()));
+    for (const Vec3& p : polygon) {
+        polygons->InsertCellPoint(points->GetNumberOfPoints());
+        add_point(points, p);
+    }
+}
+
+/// Mean traction that b exerts on a, from the force in the bond's slot (on b) [Pa].
+Vec3 mean_traction(const State& state, int slot, double area)
+{
+    if (slot >= state.slots.size() || !(area > 0.0)) return {};
+    return -state.slots.force[slot] / area;
+}
+
+/// Row i of the bond layer: interfaces first, then parallel bonds.
+struct BondRow {
+    BondFace face;
+    int grain_a = 0, grain_b = 0, kind = 0;
+    BondStage stage = BondStage::whole;
+    CrackCause cause = CrackCause::none;
+    double damage = 0.0, stored_energy = 0.0, fracture_work = 0.0, failure_time = -1.0;
+    Vec3 traction;
+};
+
+std::vector<BondRow> bond_rows(const State& state)
+{
+    const InterfaceBonds& interfaces = state.interfaces;
+    const ParallelBonds& parallels = state.parallels;
+    std::vector<BondRow> rows(static_cast<std::size_t>(state.bond_slots()));
+    for (int i = 0; i < interfaces.size(); ++i) {
+        BondRow& row = rows[static_cast<std::size_t>(i)];
+        row.face = interface_face(state, i);
+        row.grain_a = state.bodies.id[interfaces.a[i]];
+        row.grain_b = state.bodies.id[interfaces.b[i]];
+        row.stage = interface_stage(interfaces, i);
+        row.cause = interface_cause(interfaces, i);
+        row.damage = interfaces.damage[i];
+        row.stored_energy = interfaces.stored_energy[i];
+        row.fracture_work = interfaces.fracture_work[i];
+        row.failure_time = interfaces.failure_time[i];
+        row.traction = mean_traction(state, i, row.face.area);
+    }
+    for (int i = 0; i < parallels.size(); ++i) {
+        const int slot = interfaces.size() + i;
+        BondRow& row = rows[static_cast<std::size_t>(slot)];
+        row.face = parallel_face(state, i);
+        row.grain_a = state.bodies.id[parallels.a[i]];
+        row.grain_b = state.bodies.id[parallels.b[i]];
+        row.kind = 1;
+        row.stage = parallel_stage(parallels, i);
+        row.cause = parallel_cause(parallels, i);
+        row.damage = row.stage == BondStage::whole ? 0.0 : 1.0;
+        row.stored_energy = parallels.stored_energy[i];
+        row.fracture_work = parallels.fracture_work[i];
+        row.failure_time = parallels.failure_time[i];
+        row.traction = mean_traction(state, slot, row.face.area);
+    }
+    return rows;
+}
+
+std::vector<int> active_contacts(const Contacts& contacts)
+{
+    std::vector<int> rows;
+    for (int i = 0; i < contacts.size(); ++i) {
+        if (contacts.active[i] != 0) rows.push_back(i);
+    }
+    return rows;
+}
+
+}  // namespace
+
+void write_grains(const std::filesystem::path& path, const Model& model, const State& state,
+                  const SnapshotFields& fields)
+{
+    const std::vector<int> rows = grain_rows(model, state);
+    vtkNew<vtkUnstructuredGrid> grid;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const int i : rows) {
+        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(state.bodies.id[i])];
+        add_grain_cell(grid, points, shape, state.bodies.position[i], state.bodies.orientation[i]);
+    }
+    grid->SetPoints(points);
+    vtkFieldData* data = grid->GetCellData();
+    add_grain_identity(data, model, state, fields, rows);
+    add_grain_motion(data, state.bodies, rows);
+    add_grain_stress(data, fields.stress, rows);
+    add_time(grid, state);
+    std::vector<std::string> names;
+    for (const Material& material : model.materials) names.push_back(material.name);
+    add_names(grid, "material_names", names);
+    write_xml<vtkXMLUnstructuredGridWriter>(path, grid.Get());
+}
+
+void write_bonds(const std::filesystem::path& path, const State& state)
+{
+    const std::vector<BondRow> bonds = bond_rows(state);
+    const std::vector<int> rows = all_rows(bonds.size());
+    const auto bond = [&](int i) -> const BondRow& { return bonds[static_cast<std::size_t>(i)]; };
+    vtkNew<vtkPolyData> surface;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> polygons;
+    for (const BondRow& row : bonds) add_polygon(points, polygons, row.face.polygon);
+    surface->SetPoints(points);
+    surface->SetPolys(polygons);
+    vtkFieldData* data = surface->GetCellData();
+    add_integers(data, "grain_a", rows, [&](int i) { return bond(i).grain_a; });
+    add_integers(data, "grain_b", rows, [&](int i) { return bond(i).grain_b; });
+    add_integers(data, "kind", rows, [&](int i) { return bond(i).kind; });
+    add_integers(data, "state", rows, [&](int i) { return bond(i).stage; });
+    add_integers(data, "cause", rows, [&](int i) { return bond(i).cause; });
+    add_numbers(data, "damage", rows, [&](int i) { return bond(i).damage; });
+    add_numbers(data, "opening", rows, [&](int i) { return bond(i).face.opening; });
+    add_numbers(data, "normal_stress", rows, [&](int i) { return dot(bond(i).traction, bond(i).face.normal); });
+    add_numbers(data, "shear_stress", rows,
+                [&](int i) { return norm(tangential(bond(i).traction, bond(i).face.normal)); });
+    add_numbers(data, "stored_energy", rows, [&](int i) { return bond(i).stored_energy; });
+    add_numbers(data, "fracture_work", rows, [&](int i) { return bond(i).fracture_work; });
+    add_numbers(data, "area", rows, [&](int i) { return bond(i).face.area; });
+    add_numbers(data, "failure_time", rows, [&](int i) { return bond(i).failure_time; });
+    add_vectors(data, "normal", rows, [&](int i) { return bond(i).face.normal; });
+    add_time(surface, state);
+    write_xml<vtkXMLPolyDataWriter>(path, surface.Get());
+}
+
+void write_contacts(const std::filesystem::path& path, const State& state)
+{
+    const Contacts& contacts = state.contacts;
+    const std::vector<int> rows = active_contacts(contacts);
+    vtkNew<vtkPolyData> cloud;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> vertices;
+    for (const int i : rows) {
+        vertices->InsertNextCell(1);
+        vertices->InsertCellPoint(points->GetNumberOfPoints());
+        add_point(points, contacts.point[i].position);
+    }
+    cloud->SetPoints(points);
+    cloud->SetVerts(vertices);
+    // On the points, not the cells: that is where ParaView's glyphs look for vectors.
+    vtkFieldData* data = cloud->GetPointData();
+    add_integers(data, "body_a", rows, [&](int i) { return state.bodies.id[contacts.a[i]]; });
+    add_integers(data, "body_b", rows, [&](int i) { return state.bodies.id[contacts.b[i]]; });
+    add_vectors(data, "force", rows, [&](int i) {
+        const int slot = state.bond_slots() + i;
+        return slot < state.slots.size() ? state.slots.force[slot] : Vec3{};
+    });
+    add_vectors(data, "normal", rows, [&](int i) { return contacts.point[i].normal; });
+    add_numbers(data, "normal_force", rows, [&](int i) { return contacts.normal_force[i]; });
+    add_numbers(data, "penetration", rows, [&](int i) { return contacts.point[i].depth; });
+    add_numbers(data, "area", rows, [&](int i) { return contacts.point[i].area; });
+    add_time(cloud, state);
+    write_xml<vtkXMLPolyDataWriter>(path, cloud.Get());
+}
+
+void write_cracks(const std::filesystem::path& path, const State& state, const std::vector<CrackFace>& cracks)
+{
+    const std::vector<int> rows = all_rows(cracks.size());
+    const auto crack = [&](int i) -> const CrackFace& { return cracks[static_cast<std::size_t>(i)]; };
+    vtkNew<vtkPolyData> surface;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> polygons;
+    for (const CrackFace& face : cracks) add_polygon(points, polygons, face.polygon);
+    surface->SetPoints(points);
+    surface->SetPolys(polygons);
+    vtkFieldData* data = surface->GetCellData();
+    add_integers(data, "mode", rows, [&](int i) { return crack(i).mode; });
+    add_integers(data, "cause", rows, [&](int i) { return crack(i).cause; });
+    add_numbers(data, "time", rows, [&](int i) { return crack(i).time; });
+    add_numbers(data, "first_damage_time", rows, [&](int i) { return crack(i).first_damage_time; });
+    add_numbers(data, "area", rows, [&](int i) { return crack(i).area; });
+    add_vectors(data, "normal", rows, [&](int i) { return crack(i).normal; });
+    add_numbers(data, "opening", rows, [&](int i) { return crack(i).opening; });
+    add_numbers(data, "K_I", rows, [&](int i) { return crack(i).K_I; });
+    add_numbers(data, "K_II", rows, [&](int i) { return crack(i).K_II; });
+    add_integers(data, "grain_a", rows, [&](int i) { return crack(i).grain_a; });
+    add_integers(data, "grain_b", rows, [&](int i) { return crack(i).grain_b; });
+    add_time(surface, state);
+    write_xml<vtkXMLPolyDataWriter>(path, surface.Get());
+}
+
+void write_walls(const std::filesystem::path& path, const Model& model, const State& state)
+{
+    const Bodies& bodies = state.bodies;
+    vtkNew<vtkPolyData> surface;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> polygons;
+    std::vector<int> rows;  // the body of each polygon
+    for (int i = 0; i < bodies.size(); ++i) {
+        if (bodies.wall[i] < 0) continue;
+        const Surface shape = shape_surface(model.shapes, bodies.shape[i]);
+        const vtkIdType first = points->GetNumberOfPoints();
+        for (const Vec3& p : shape.points) add_point(points, bodies.position[i] + rotate(bodies.orientation[i], p));
+        for (const auto& loop : shape.faces) {
+            polygons->InsertNextCell(static_cast<int>(loop.size()));
+            for (const int v : loop) polygons->InsertCellPoint(first + v);
+            rows.push_back(i);
+        }
+    }
+    surface->SetPoints(points);
+    surface->SetPolys(polygons);
+    vtkFieldData* data = surface->GetCellData();
+    add_integers(data, "wall", rows, [&](int i) { return bodies.wall[i]; });
+    add_integers(data, "body", rows, [&](int i) { return bodies.id[i]; });
+    add_vectors(data, "velocity", rows, [&](int i) { return bodies.velocity[i]; });
+    add_vectors(data, "force", rows, [&](int i) { return bodies.force[i]; });
+    add_vectors(data, "displacement", rows, [&](int i) { return bodies.position[i] - bodies.start_position[i]; });
+    add_time(surface, state);
+    add_names(surface, "wall_names", model.walls);
+    write_xml<vtkXMLPolyDataWriter>(path, surface.Get());
+}
+
+void ParaviewSeries::write_frame(const Model& model, const State& state, const SnapshotFields& fields,
+                                 const std::vector<CrackFace>& cracks, bool contacts)
+{
+    const auto name = [&](const char* kind, const char* suffix) {
+        return fmt::format("{}_{:06}.{}", kind, frame_, suffix);
+    };
+    const std::string grains_file = name("grains", "vtu"), bonds_file = name("bonds", "vtp"),
+                      contacts_file = name("contacts", "vtp"), cracks_file = name("cracks", "vtp"),
+                      walls_file = name("walls", "vtp");
+    write_grains(folder_ / grains_file, model, state, fields);
+    write_bonds(folder_ / bonds_file, state);
+    if (contacts) write_contacts(folder_ / contacts_file, state);
+    write_cracks(folder_ / cracks_file, state, cracks);
+    write_walls(folder_ / walls_file, model, state);
+    // Entered when all are there, so that the layers that ParaView shows are of one time.
+    enter("grains", grains_file, state.time);
+    enter("bonds", bonds_file, state.time);
+    if (contacts) enter("contacts", contacts_file, state.time);
+    enter("cracks", cracks_file, state.time);
+    enter("walls", walls_file, state.time);
+    ++frame_;
+}
+
+void ParaviewSeries::enter(const std::string& kind, const std::string& file, double time)
+{
+    std::string& entries = entries_[kind];
+    entries += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, file);
+    write_file(folder_ / (kind + ".pvd"),
+               "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+               "  <Collection>\n" +
+                   entries + "  </Collection>\n</VTKFile>\n");
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The layers of a snapshot as VTK XML files, and the .pvd series that ParaView opens (fields: docs/output.md).
+#pragma once
+
+#include "io/results.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainfrac {
+
+// One file each; all are written aside and renamed, and valid when empty. Throw std::runtime_error.
+
+/// Grains as polyhedra (.vtu).
+void write_grains(const std::filesystem::path& path, const Model& model, const State& state,
+                  const SnapshotFields& fields);
+/// Bonds as the polygons between grains (.vtp).
+void write_bonds(const std::filesystem::path& path, const State& state);
+/// Contacts that carry force, one vertex each (.vtp).
+void write_contacts(const std::filesystem::path& path, const State& state);
+/// Broken faces (.vtp).
+void write_cracks(const std::filesystem::path& path, const State& state, const std::vector<CrackFace>& cracks);
+/// Driven bodies (.vtp).
+void write_walls(const std::filesystem::path& path, const Model& model, const State& state);
+
+/// The folder with its series, one frame after another.
+class ParaviewSeries {
+public:
+    explicit ParaviewSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    void write_frame(const Model& model, const State& state, const SnapshotFields& fields,
+                     const std::vector<CrackFace>& cracks, bool contacts);
+
+private:
+    /// Enter `file` into `kind`.pvd, which is made anew, so that a ParaView that is open can reload it.
+    void enter(const std::string& kind, const std::string& file, double time);
+
+    std::filesystem::path folder_;
+    std::map<std::string, std::string> entries_;  // per kind: the DataSet lines of its .pvd
+    int frame_ = 0;
+};
+
+}  // namespace grainfrac

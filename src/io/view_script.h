@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// paraview/view.py: the script that opens a result folder in ParaView.
+#pragma once
+
+#include <string>
+
+namespace grainfrac {
+
+/// The script's text; it finds the layers beside itself and does not depend on the run.
+std::string view_script();
+
+}  // namespace grainfrac

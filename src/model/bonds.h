@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bonds: area-integrated interfaces with their quadrature points, and circular parallel bonds. Sorted by (a, b), a < b.
+#pragma once
+
+#include "geometry/quat.h"
+#include "gpu/buffer.h"
+
+#include <cstdint>
+
+namespace grainfrac {
+
+/// Components on the two tangents of an interface.
+struct Vec2 {
+    double x = 0.0, y = 0.0;
+};
+
+/// Grain boundaries, one entry per shared face (physics: total form, no history but damage and slip).
+struct InterfaceBonds {
+    Buffer<std::int32_t> a, b;           ///< bodies
+    Buffer<std::int32_t> law;            ///< into Model::interface_laws
+    Buffer<std::int32_t> point_begin;    ///< first quadrature point; one more entry at the end
+    Buffer<std::int32_t> corner_begin;   ///< first corner of the face polygon; one more entry at the end
+    Buffer<Vec3> normal_a, normal_b;     ///< unit normal from a to b, in the frames of a and b [-]
+    Buffer<Vec3> tangent_a, tangent_b;   ///< first tangent, in the frames of a and b [-]
+    Buffer<double> area;                 ///< [m^2]
+    Buffer<double> diameter;             ///< of the face polygon [m]
+    Buffer<double> normal_stiffness;     ///< k_n per area [Pa/m]
+    Buffer<double> shear_stiffness;      ///< k_s per area [Pa/m]
+    Buffer<double> normal_damping;       ///< c_n per area [Pa s/m]
+    Buffer<double> shear_damping;        ///< c_s per area [Pa s/m]
+    Buffer<double> strength_factor;      ///< scatter: multiplies sigma_c and c [-]
+    Buffer<double> toughness_factor;     ///< scatter: multiplies G_I and G_II [-]
+    Buffer<double> opening_limit;        ///< opening beyond which a dead face is handed to general contact [m]
+    // state
+    Buffer<std::int32_t> retired;        ///< 1: dead and handed over to general contact
+    Buffer<double> damage;               ///< area mean [-]
+    Buffer<double> stored_energy;        ///< [J]
+    Buffer<double> fracture_work;        ///< dissipated by damage so far [J]
+    Buffer<double> friction_work;        ///< dissipated by slip so far [J]
+    Buffer<double> viscous_work;         ///< dissipated by dashpots so far [J]
+    Buffer<double> shear_share;          ///< integral of mode mix B over damage and area [m^2]
+    Buffer<double> first_damage_time;    ///< -1 before [s]
+    Buffer<double> failure_time;         ///< all points at D = 1; -1 before [s]
+    Buffer<Vec3> viscous_force;          ///< on a, of the last evaluation, for the energy account [N]
+    Buffer<Vec3> viscous_torque_a, viscous_torque_b;  ///< [N m]
+
+    int size() const { return a.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
+        visit("a", a);
+        visit("b", b);
+        visit("law", law);
+        visit("point_begin", point_begin);
+        visit("corner_begin", corner_begin);
+        visit("normal_a", normal_a);
+        visit("normal_b", normal_b);
+        visit("tangent_a", tangent_a);
+        visit("tangent_b", tangent_b);
+        visit("area", area);
+        visit("diameter", diameter);
+        visit("normal_stiffness", normal_stiffness);
+        visit("shear_stiffness", shear_stiffness);
+        visit("normal_damping", normal_damping);
+        visit("shear_damping", shear_damping);
+        visit("strength_factor", strength_factor);
+        visit("toughness_factor", toughness_factor);
+        visit("opening_limit", opening_limit);
+        visit("retired", retired);
+        visit("damage", damage);
+        visit("stored_energy", stored_energy);
+        visit("fracture_work", fracture_work);
+        visit("friction_work", friction_work);
+        visit("viscous_work", viscous_work);
+        visit("shear_share", shear_share);
+        visit("first_damage_time", first_damage_time);
+        visit("failure_time", failure_time);
+        visit("viscous_force", viscous_force);
+        visit("viscous_torque_a", viscous_torque_a);
+        visit("viscous_torque_b", viscous_torque_b);
+    }
+};
+
+/// Quadrature points of all interfaces, end to end.
+struct InterfacePoints {
+    Buffer<Vec3> position_a, position_b;  ///< in the frames of a and b; equal in space at creation [m]
+    Buffer<double> weight;                ///< A_q [m^2]
+    // state
+    Buffer<double> damage;                ///< D [-]
+    Buffer<double> onset;                 ///< lambda_0, energy norm at onset; 0 before [sqrt(J)/m]
+    Buffer<double> failure;               ///< lambda_f [sqrt(J)/m]
+    Buffer<Vec2> slip;                    ///< delta_sl on the mean reference tangents [m]
+
+    int size() const { return weight.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
+        visit("position_a", position_a);
+        visit("position_b", position_b);
+        visit("weight", weight);
+        visit("damage", damage);
+        visit("onset", onset);
+        visit("failure", failure);
+        visit("slip", slip);
+    }
+};
+
+/// Corners of all interface polygons, end to end, counter-clockwise seen from b: for whole-face failure and for crack
+/// pictures.
+struct InterfaceCorners {
+    Buffer<Vec3> position_a, position_b;  ///< in the frames of a and b [m]
+
+    int size() const { return position_a.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
+        visit("position_a", position_a);
+        visit("position_b", position_b);
+    }
+};
+
+/// Circular parallel bonds (Potyondy and Cundall 2004), incremental.
+struct ParallelBonds {
+    Buffer<std::int32_t> a, b;            ///< bodies
+    Buffer<std::int32_t> law;             ///< into Model::parallel_laws
+    Buffer<Vec3> position_a, position_b;  ///< bond centre in the frames of a and b [m]
+    Buffer<Vec3> normal_a, normal_b;      ///< unit normal from a to b, in the frames of a and b [-]
+    Buffer<double> radius;                ///< R [m]
+    Buffer<double> normal_stiffness;      ///< k_n per area [Pa/m]
+    Buffer<double> shear_stiffness;       ///< k_s per area [Pa/m]
+    Buffer<double> normal_damping;        ///< c_n [N s/m]
+    Buffer<double> shear_damping;         ///< c_s [N s/m]
+    Buffer<double> strength_factor;       ///< [-]
+    // state
+    Buffer<Vec3> force;                   ///< on a, elastic, world frame [N]
+    Buffer<Vec3> moment;                  ///< on a, elastic, world frame [N m]
+    Buffer<Vec3> normal;                  ///< of the last evaluation, world frame [-]
+    Buffer<std::int32_t> cause;           ///< 0 whole, 1 broke in tension, 2 in shear
+    Buffer<double> stored_energy;         ///< [J]
+    Buffer<double> fracture_work;         ///< [J]
+    Buffer<double> viscous_work;          ///< [J]
+    Buffer<double> failure_time;          ///< -1 before [s]
+    Buffer<Vec3> viscous_force;           ///< on a, of the last evaluation [N]
+
+    int size() const { return a.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
+        visit("a", a);
+        visit("b", b);
+        visit("law", law);
+        visit("position_a", position_a);
+        visit("position_b", position_b);
+        visit("normal_a", normal_a);
+        visit("normal_b", normal_b);
+        visit("radius", radius);
+        visit("normal_stiffness", normal_stiffness);
+        visit("shear_stiffness", shear_stiffness);
+        visit("normal_damping", normal_damping);
+        visit("shear_damping", shear_damping);
+        visit("strength_factor", strength_factor);
+        visit("force", force);
+        visit("moment", moment);
+        visit("normal", normal);
+        visit("cause", cause);
+        visit("stored_energy", stored_energy);
+        visit("fracture_work", fracture_work);
+        visit("viscous_work", viscous_work);
+        visit("failure_time", failure_time);
+        visit("viscous_force", viscous_force);
+    }
+};
+
+}  // namespace grainfrac

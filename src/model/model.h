@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What never changes in a step: materials, laws by pair, walls, gravity.
+#pragma once
+
+#include "contact/linear_contact.h"
+#include "fracture/interface_law.h"
+#include "fracture/parallel_law.h"
+#include "model/shapes.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grainfrac {
+
+struct Material {
+    std::string name;
+    double density = 0.0;        ///< [kg/m^3]
+    double young_modulus = 0.0;  ///< [Pa]
+    double poisson_ratio = 0.0;  ///< [-]
+};
+
+/// A part or a wall: what `between` in the input can name.
+struct Group {
+    std::string name;
+    std::int32_t material = -1;  ///< into Model::materials, -1 for walls
+    bool is_wall = false;
+};
+
+/// A driven body or several that move as one. Speed rises over `ramp` as s^3 (10 - 15 s + 6 s^2) from `from_velocity`.
+struct WallMotion {
+    Vec3 from_velocity;   ///< [m/s]
+    Vec3 velocity;        ///< [m/s]
+    double start = 0.0;   ///< [s]
+    double ramp = 0.0;    ///< [s]
+
+    GF_FN Vec3 at(double time) const
+    {
+        if (ramp <= 0.0 || time >= start + ramp) return velocity;
+        const double s = time > start ? (time - start) / ramp : 0.0;
+        return from_velocity + s * s * s * (10.0 + s * (6.0 * s - 15.0)) * (velocity - from_velocity);
+    }
+};
+
+struct Model {
+    std::vector<Material> materials;
+    std::vector<Group> groups;
+    std::vector<std::string> walls;          ///< names; Bodies::wall points here
+    Buffer<WallMotion> wall_motion;          ///< one per wall, set by the stage
+    Shapes shapes;
+    std::vector<Polyhedron> grain_shapes;    ///< sharp polyhedron of each body id in its body frame; empty for walls
+    Buffer<InterfaceLaw> interface_laws;
+    Buffer<ParallelLaw> parallel_laws;
+    Buffer<LinearContact> contact_laws;
+    std::vector<std::int32_t> contact_law_of;  ///< group x group -> contact law, row by row
+    Vec3 gravity;                            ///< [m/s^2]
+    double local_damping = 0.0;              ///< alpha [-]
+    bool fracture_active = true;             ///< bonds may break in this stage
+    double skin = 0.0;                       ///< of the neighbour list [m]
+    double nominal_length = 0.0;             ///< mean grain spacing, for scales and tolerances [m]
+    Device device = Device::cpu;
+};
+
+}  // namespace grainfrac

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What changes in a step. Every interaction has a slot; a body adds its slots in a fixed order.
+#pragma once
+
+#include "model/bodies.h"
+#include "model/bonds.h"
+#include "model/contacts.h"
+
+#include <cstdint>
+
+namespace grainfrac {
+
+/// What an interaction does to its two bodies. Slots: interfaces first, then parallel bonds, then contacts.
+struct Slots {
+    Buffer<Vec3> force;      ///< on b; a gets the opposite [N]
+    Buffer<Vec3> torque_a;   ///< about the centre of a [N m]
+    Buffer<Vec3> torque_b;   ///< about the centre of b [N m]
+    Buffer<Mat3> dyad_a;     ///< sum of d (x) f about the centre of a; empty unless this step was asked for stresses [N m]
+    Buffer<Mat3> dyad_b;     ///< the same for b [N m]
+
+    int size() const { return force.size(); }
+    void resize(int n)
+    {
+        force.resize(n);
+        torque_a.resize(n);
+        torque_b.resize(n);
+    }
+};
+
+/// Slots of each body: entries [begin[i], begin[i+1]), each 2 * slot + side (0: the body is a, 1: it is b), ascending.
+struct Incidence {
+    Buffer<std::int32_t> begin;
+    Buffer<std::int32_t> entry;
+};
+
+/// Energies of contacts that left the neighbour list [J].
+struct PastContacts {
+    double friction_work = 0.0, viscous_work = 0.0, hysteresis_work = 0.0;
+};
+
+struct State {
+    Bodies bodies;
+    InterfaceBonds interfaces;
+    InterfacePoints points;
+    InterfaceCorners corners;
+    ParallelBonds parallels;
+    Contacts contacts;
+    Slots slots;
+    Incidence incidence;
+    PastContacts past_contacts;
+    double travel = 0.0;  ///< farthest any surface point may have moved since the neighbour list was made [m]
+    double initial_energy = 0.0;  ///< E_0 of the ledger [J]
+    double time = 0.0;    ///< [s]
+    std::int64_t step = 0;
+
+    int bond_slots() const { return interfaces.size() + parallels.size(); }
+};
+
+}  // namespace grainfrac

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/validate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace grainfrac {
+
+namespace {
+
+bool finite(const Vec3& a)
+{
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// Unit length within this [-]; drift renormalises each step, so that more means a corrupted state.
+constexpr double unit_tolerance = 1e-9;
+
+std::string bodies_problem(const Model& model, const Bodies& b)
+{
+    for (int i = 0; i < b.size(); ++i) {
+        const Quat q = b.orientation[i];
+        const auto problem = [&](const char* what) { return fmt::format("body {}: {}", b.id[i], what); };
+        if (!finite(b.position[i])) return problem("position is not finite");
+        if (!finite(b.velocity[i])) return problem("velocity is not finite");
+        if (!finite(b.force[i]) || !finite(b.torque[i])) return problem("force or torque is not finite");
+        if (!finite(b.angular_momentum[i])) return problem("angular momentum is not finite");
+        if (!(std::fabs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < unit_tolerance)) return problem("orientation is not of unit length");
+        if (b.shape[i] < 0 || b.shape[i] >= model.shapes.size()) return problem("has no shape");
+        if (b.group[i] < 0 || b.group[i] >= static_cast<int>(model.groups.size())) return problem("belongs to no part or wall");
+        if (b.inverse_mass[i] > 0.0 && !(b.mass[i] > 0.0)) return problem("has no mass");
+    }
+    return {};
+}
+
+template <class Bonds>
+std::string bonds_problem(const char* kind, const Bonds& bonds, int bodies)
+{
+    for (int i = 0; i < bonds.size(); ++i) {
+        const int a = bonds.a[i], b = bonds.b[i];
+        if (a < 0 || b <= a || b >= bodies) return fmt::format("{} {}: bodies {} and {} are no pair", kind, i, a, b);
+        if (i > 0 && (bonds.a[i - 1] > a || (bonds.a[i - 1] == a && bonds.b[i - 1] > b))) return fmt::format("{} {}: not sorted", kind, i);
+        if (!std::isfinite(bonds.stored_energy[i])) return fmt::format("{} {}: energy is not finite", kind, i);
+    }
+    return {};
+}
+
+class Fnv {
+public:
+    void add(const void* data, std::size_t bytes)
+    {
+        const auto* p = static_cast<const unsigned char*>(data);
+        for (std::size_t i = 0; i < bytes; ++i) hash_ = (hash_ ^ p[i]) * 1099511628211ULL;
+    }
+    template <class T>
+    void add(const Buffer<T>& buffer)
+    {
+        add(buffer.host().data(), buffer.host().size() * sizeof(T));
+    }
+    std::uint64_t value() const { return hash_; }
+
+private:
+    std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+}  // namespace
+
+std::string why_not_valid(const Model& model, const State& state)
+{
+    if (auto why = bodies_problem(model, state.bodies); !why.empty()) return why;
+    if (auto why = bonds_problem("interface", state.interfaces, state.bodies.size()); !why.empty()) return why;
+    if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
+    for (int q = 0; q < state.points.size(); ++q) {
+        if (!(state.points.damage[q] >= 0.0 && state.points.damage[q] <= 1.0)) return fmt::format("interface point {}: damage out of [0, 1]", q);
+    }
+    return {};
+}
+
+std::uint64_t state_hash(const State& state)
+{
+    Fnv h;
+    h.add(state.bodies.position);
+    h.add(state.bodies.orientation);
+    h.add(state.bodies.velocity);
+    h.add(state.bodies.angular_momentum);
+    h.add(state.points.damage);
+    h.add(state.points.slip);
+    h.add(state.parallels.force);
+    h.add(state.contacts.shear_force);
+    h.add(state.contacts.max_overlap);
+    return h.value();
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motion/energy.h"
+
+#include "gpu/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+struct Entry {
+    View<const double> values;
+    GF_FN double operator()(int i) const { return values[i]; }
+};
+
+double total(Device d, const Buffer<double>& values)
+{
+    return parallel_sum(d, values.size(), Entry{values.read(d)});
+}
+
+/// 1/2 m v^2 + 1/2 L_b . I^-1 L_b of the free bodies.
+struct KineticEnergy {
+    View<const Vec3> velocity, angular_momentum, inverse_inertia;
+    View<const double> mass, inverse_mass;
+    GF_FN double operator()(int i) const
+    {
+        if (inverse_mass[i] == 0.0) return 0.0;
+        const Vec3 L = angular_momentum[i], j = inverse_inertia[i];
+        return 0.5 * mass[i] * norm2(velocity[i]) + 0.5 * (L.x * L.x * j.x + L.y * L.y * j.y + L.z * L.z * j.z);
+    }
+};
+
+}  // namespace
+
+double Ledger::relative_error() const
+{
+    const double scale = std::max({std::fabs(external), std::fabs(gravity), kinetic, elastic_bonds + elastic_contacts, initial});
+    return scale > 0.0 ? std::fabs(residual()) / scale : 0.0;
+}
+
+Ledger energy_ledger(const Model& model, const State& state)
+{
+    const Device d = model.device;
+    const Bodies& b = state.bodies;
+    const InterfaceBonds& i = state.interfaces;
+    const ParallelBonds& p = state.parallels;
+    const Contacts& c = state.contacts;
+    const PastContacts& past = state.past_contacts;
+    Ledger e;
+    e.kinetic = parallel_sum(d, b.size(),
+                             KineticEnergy{b.velocity.read(d), b.angular_momentum.read(d), b.inverse_inertia.read(d), b.mass.read(d),
+                                           b.inverse_mass.read(d)});
+    e.elastic_bonds = total(d, i.stored_energy) + total(d, p.stored_energy);
+    e.elastic_contacts = total(d, c.stored_energy);
+    e.fracture = total(d, i.fracture_work) + total(d, p.fracture_work);
+    e.friction = total(d, i.friction_work) + total(d, c.friction_work) + past.friction_work;
+    e.damping = total(d, i.viscous_work) + total(d, p.viscous_work) + total(d, c.viscous_work) + past.viscous_work +
+                total(d, c.hysteresis_work) + past.hysteresis_work + total(d, b.damping_work);
+    e.external = total(d, b.external_work);
+    e.gravity = total(d, b.gravity_work);
+    e.initial = state.initial_energy;
+    return e;
+}
+
+Momentum total_momentum(const Model&, const State& state)
+{
+    const Bodies& b = state.bodies;
+    Momentum m;
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.inverse_mass[i] == 0.0) continue;
+        const Vec3 p = b.mass[i] * b.velocity[i];
+        m.mass += b.mass[i];
+        m.linear += p;
+        m.angular += cross(b.position[i], p) + rotate(b.orientation[i], b.angular_momentum[i]);
+    }
+    return m;
+}
+
+}  // namespace grainfrac

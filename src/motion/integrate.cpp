@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motion/integrate.h"
+
+#include "gpu/parallel.h"
+
+namespace grainfrac {
+
+namespace {
+
+GF_FN double product_sign(double value, double rate)
+{
+    return rate > 0.0 ? std::fabs(value) : (rate < 0.0 ? -std::fabs(value) : 0.0);
+}
+
+/// Local non-viscous damping per component: alpha |F| against the motion (Cundall 1987).
+GF_FN Vec3 local_drag(double alpha, const Vec3& f, const Vec3& v)
+{
+    return {-alpha * product_sign(f.x, v.x), -alpha * product_sign(f.y, v.y), -alpha * product_sign(f.z, v.z)};
+}
+
+GF_FN Vec3 scaled(const Vec3& a, const Vec3& b)
+{
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+struct Kick {
+    static constexpr const char* name = "kick";
+    double dt, local_damping;
+    Vec3 gravity;
+    View<const Vec3> force, torque, inverse_inertia;
+    View<const double> mass, inverse_mass;
+    View<const Quat> orientation;
+    View<Vec3> velocity, angular_momentum, angular_velocity;
+    View<double> external_work, damping_work, gravity_work;
+
+    GF_FN void operator()(int i) const
+    {
+        if (inverse_mass[i] == 0.0) {  // driven: the system pushes back, we push with the opposite force
+            external_work[i] -= dt * (dot(force[i], velocity[i]) + dot(torque[i], angular_velocity[i]));
+            return;
+        }
+        const Vec3 v = velocity[i];
+        const Vec3 drag = local_damping > 0.0 ? local_drag(local_damping, force[i], v) : Vec3{};
+        const Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
+        const Vec3 mean = 0.5 * (v + v_new);
+        gravity_work[i] += dt * mass[i] * dot(gravity, mean);
+        velocity[i] = v_new;
+
+        const Vec3 t = rotate_back(orientation[i], torque[i]);
+        const Vec3 spin = scaled(inverse_inertia[i], angular_momentum[i]);
+        const Vec3 brake = local_damping > 0.0 ? local_drag(local_damping, t, spin) : Vec3{};
+        const Vec3 L = angular_momentum[i] + dt * (t + brake);
+        const Vec3 spin_new = scaled(inverse_inertia[i], L);
+        damping_work[i] -= dt * (dot(drag, mean) + dot(brake, 0.5 * (spin + spin_new)));
+        angular_momentum[i] = L;
+        angular_velocity[i] = rotate(orientation[i], spin_new);
+    }
+};
+
+struct Drift {
+    static constexpr const char* name = "drift";
+    double dt;
+    View<const Vec3> velocity, inverse_inertia;
+    View<const double> inverse_mass;
+    View<Vec3> position, angular_momentum, angular_velocity;
+    View<Quat> orientation;
+
+    GF_FN void operator()(int i) const
+    {
+        position[i] += dt * velocity[i];
+        if (inverse_mass[i] == 0.0) return;
+        Vec3 L = angular_momentum[i];
+        Quat q = orientation[i];
+        rotate_freely(inverse_inertia[i], dt, L, q);
+        angular_momentum[i] = L;
+        orientation[i] = q;
+        angular_velocity[i] = rotate(q, scaled(inverse_inertia[i], L));
+    }
+};
+
+struct MoveWalls {
+    static constexpr const char* name = "move walls";
+    double time;
+    View<const std::int32_t> wall;
+    View<const WallMotion> motion;
+    View<Vec3> velocity;
+    GF_FN void operator()(int i) const
+    {
+        if (wall[i] >= 0) velocity[i] = motion[wall[i]].at(time);
+    }
+};
+
+struct UpdateAngularVelocity {
+    static constexpr const char* name = "update angular velocity";
+    View<const double> inverse_mass;
+    View<const Quat> orientation;
+    View<const Vec3> inverse_inertia, angular_momentum;
+    View<Vec3> angular_velocity;
+    GF_FN void operator()(int i) const
+    {
+        if (inverse_mass[i] == 0.0) return;
+        angular_velocity[i] = rotate(orientation[i], scaled(inverse_inertia[i], angular_momentum[i]));
+    }
+};
+
+}  // namespace
+
+void kick(const Model& model, State& state, double dt)
+{
+    const Device d = model.device;
+    Bodies& b = state.bodies;
+    parallel_for(d, b.size(),
+                 Kick{dt, model.local_damping, model.gravity, b.force.read(d), b.torque.read(d), b.inverse_inertia.read(d),
+                      b.mass.read(d), b.inverse_mass.read(d), b.orientation.read(d), b.velocity.write(d),
+                      b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
+                      b.damping_work.write(d), b.gravity_work.write(d)});
+}
+
+void drift(const Model& model, State& state, double dt)
+{
+    const Device d = model.device;
+    Bodies& b = state.bodies;
+    parallel_for(d, b.size(),
+                 Drift{dt, b.velocity.read(d), b.inverse_inertia.read(d), b.inverse_mass.read(d), b.position.write(d),
+                       b.angular_momentum.write(d), b.angular_velocity.write(d), b.orientation.write(d)});
+}
+
+void move_walls(const Model& model, State& state, double time)
+{
+    if (model.walls.empty()) return;
+    const Device d = model.device;
+    Bodies& b = state.bodies;
+    parallel_for(d, b.size(), MoveWalls{time, b.wall.read(d), model.wall_motion.read(d), b.velocity.write(d)});
+}
+
+void update_angular_velocity(const Model& model, State& state)
+{
+    const Device d = model.device;
+    Bodies& b = state.bodies;
+    parallel_for(d, b.size(),
+                 UpdateAngularVelocity{b.inverse_mass.read(d), b.orientation.read(d), b.inverse_inertia.read(d),
+                                       b.angular_momentum.read(d), b.angular_velocity.write(d)});
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motion/time_step.h"
+
+#include "contact/manifold.h"
+#include "model/views.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <vector>
+
+namespace grainfrac {
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Eigen::Vector3d eigen(const Vec3& a)
+{
+    return {a.x, a.y, a.z};
+}
+
+/// Spring of normal and shear stiffness [N/m] with normal n at `arm` from the body's centre.
+void add_spring(Matrix6& K, const Vec3& arm, const Vec3& n, double k_n, double k_s)
+{
+    Eigen::Matrix<double, 3, 6> G;
+    const Mat3 s = Mat3::skew(arm);
+    G.leftCols<3>().setIdentity();
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) G(r, c + 3) = -s[r][c];
+    }
+    const Eigen::Vector3d e = eigen(n);
+    const Eigen::Matrix3d k = k_s * Eigen::Matrix3d::Identity() + (k_n - k_s) * e * e.transpose();
+    K += G.transpose() * k * G;
+}
+
+struct Stiffness {
+    std::vector<Matrix6> K;           // per body, world axes about its centre
+    std::vector<const char*> source;  // what is stiffest on it
+    std::vector<double> strongest;
+
+    explicit Stiffness(int n)
+        : K(static_cast<std::size_t>(n), Matrix6::Zero()), source(static_cast<std::size_t>(n), ""), strongest(static_cast<std::size_t>(n), 0.0)
+    {
+    }
+    void add(int body, const Vec3& arm, const Vec3& n, double k_n, double k_s, const char* what)
+    {
+        const auto i = static_cast<std::size_t>(body);
+        add_spring(K[i], arm, n, k_n, k_s);
+        if (k_n > strongest[i]) {
+            strongest[i] = k_n;
+            source[i] = what;
+        }
+    }
+};
+
+void add_interfaces(const State& state, Stiffness& s)
+{
+    const InterfaceBonds& f = state.interfaces;
+    const Bodies& b = state.bodies;
+    for (int i = 0; i < f.size(); ++i) {
+        if (f.retired[i] != 0) continue;
+        const Quat qa = b.orientation[f.a[i]], qb = b.orientation[f.b[i]];
+        const Vec3 n = normalized(rotate(qa, f.normal_a[i]) + rotate(qb, f.normal_b[i]));
+        for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
+            const double w = state.points.weight[q];
+            s.add(f.a[i], rotate(qa, state.points.position_a[q]), n, w * f.normal_stiffness[i], w * f.shear_stiffness[i], "interface");
+            s.add(f.b[i], rotate(qb, state.points.position_b[q]), n, w * f.normal_stiffness[i], w * f.shear_stiffness[i], "interface");
+        }
+    }
+}
+
+void add_parallels(const State& state, Stiffness& s)
+{
+    const ParallelBonds& p = state.parallels;
+    const Bodies& b = state.bodies;
+    for (int i = 0; i < p.size(); ++i) {
+        if (p.cause[i] != 0) continue;
+        const CircularSection c(p.radius[i]);
+        const auto side = [&](int body, const Vec3& position, const Vec3& normal) {
+            const Quat q = b.orientation[body];
+            const Vec3 n = rotate(q, normal), arm = rotate(q, position);
+            s.add(body, arm, n, p.normal_stiffness[i] * c.area, p.shear_stiffness[i] * c.area, "parallel bond");
+            const Eigen::Vector3d e = eigen(n);
+            const double bending = p.normal_stiffness[i] * c.bending, torsion = p.shear_stiffness[i] * c.polar;
+            s.K[static_cast<std::size_t>(body)].bottomRightCorner<3, 3>() +=
+                bending * Eigen::Matrix3d::Identity() + (torsion - bending) * e * e.transpose();
+        };
+        side(p.a[i], p.position_a[i], p.normal_a[i]);
+        side(p.b[i], p.position_b[i], p.normal_b[i]);
+    }
+}
+
+/// Active contacts with their manifold. A pair with a wall counts as in contact at its point stiffness, or its present
+/// manifold's, since platens touch first and are the stiffest.
+void add_contacts(const Model& model, const State& state, Stiffness& s)
+{
+    const Contacts& c = state.contacts;
+    const Bodies& b = state.bodies;
+    for (int i = 0; i < c.size(); ++i) {
+        const int bodies[2] = {c.a[i], c.b[i]};
+        const LinearContact law = model.contact_laws[c.law[i]];
+        const ContactPoint p = c.point[i];
+        const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
+        if (p.overlap_volume <= 0.0 && !with_wall) continue;
+        double area = p.area;
+        Vec3 position = p.position, normal = p.normal;
+        if (p.overlap_volume <= 0.0) {
+            const ShapesView shapes = view(model.shapes, Device::cpu);
+            const ContactBody x{shapes, b.shape[bodies[0]], b.position[bodies[0]], b.orientation[bodies[0]]};
+            const ContactBody y{shapes, b.shape[bodies[1]], b.position[bodies[1]], b.orientation[bodies[1]]};
+            const ClosestPoints near = closest_points(x.core(), y.core(), y.position - x.position);
+            if (near.distance <= 0.0) continue;
+            position = 0.5 * (near.a + near.b);
+            normal = (near.b - near.a) * (1.0 / near.distance);
+            area = std::fmax(model.shapes.point_area[x.shape], model.shapes.point_area[y.shape]);
+        }
+        const double k = law.area_stiffness * c.stiffness_scale[i] * area * law.unload_factor;
+        for (const int body : bodies) {
+            if (b.inverse_mass[body] > 0.0) {
+                s.add(body, position - b.position[body], normal, k, law.shear_ratio * k, with_wall ? "contact with a wall" : "contact");
+            }
+        }
+    }
+}
+
+/// Largest eigenvalue of M^-1 K of one body [1/s^2].
+double largest_eigenvalue(const Bodies& b, int i, const Matrix6& K)
+{
+    // turn the rotational part to the principal frame, where M is diagonal
+    const Mat3 r = to_matrix(b.orientation[i]);
+    Matrix6 T = Matrix6::Identity();
+    for (int row = 0; row < 3; ++row) {
+        for (int col = 0; col < 3; ++col) T(row + 3, col + 3) = r[row][col];
+    }
+    Eigen::Matrix<double, 6, 1> half;  // M^-1/2
+    const double m = std::sqrt(b.inverse_mass[i]);
+    const Vec3 j = b.inverse_inertia[i];
+    half << m, m, m, std::sqrt(j.x), std::sqrt(j.y), std::sqrt(j.z);
+    const Matrix6 A = half.asDiagonal() * (T.transpose() * K * T) * half.asDiagonal();
+    return Eigen::SelfAdjointEigenSolver<Matrix6>(A, Eigen::EigenvaluesOnly).eigenvalues()[5];
+}
+
+/// Largest zeta at the highest frequency: a dashpot of ratio zeta at its own frequency has zeta omega/omega_own there.
+double damping_at(const State& state, const Model& model, double omega)
+{
+    double worst = 0.0;
+    const InterfaceBonds& f = state.interfaces;
+    for (int i = 0; i < f.size(); ++i) {
+        if (f.normal_stiffness[i] > 0.0 && f.retired[i] == 0) worst = std::fmax(worst, 0.5 * omega * f.normal_damping[i] / f.normal_stiffness[i]);
+        if (f.shear_stiffness[i] > 0.0 && f.retired[i] == 0) worst = std::fmax(worst, 0.5 * omega * f.shear_damping[i] / f.shear_stiffness[i]);
+    }
+    const ParallelBonds& p = state.parallels;
+    for (int i = 0; i < p.size(); ++i) {
+        const double k = p.normal_stiffness[i] * CircularSection(p.radius[i]).area;
+        if (p.cause[i] == 0) worst = std::fmax(worst, 0.5 * omega * p.normal_damping[i] / k);
+    }
+    const Contacts& c = state.contacts;
+    for (int i = 0; i < c.size(); ++i) {
+        const LinearContact law = model.contact_laws[c.law[i]];
+        const double k = law.area_stiffness * c.point[i].area;
+        if (law.damping_ratio <= 0.0 || k <= 0.0) continue;
+        const double m = reduced_mass(state.bodies.inverse_mass[c.a[i]], state.bodies.inverse_mass[c.b[i]]);
+        worst = std::fmax(worst, law.damping_ratio * omega * std::sqrt(m / k));
+    }
+    return worst;
+}
+
+}  // namespace
+
+TimeStepBound time_step_bound(const Model& model, const State& state)
+{
+    Stiffness s(state.bodies.size());
+    add_interfaces(state, s);
+    add_parallels(state, s);
+    add_contacts(model, state, s);
+    double largest = 0.0;
+    TimeStepBound bound;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (state.bodies.inverse_mass[i] == 0.0 || s.strongest[static_cast<std::size_t>(i)] == 0.0) continue;
+        const double lambda = largest_eigenvalue(state.bodies, i, s.K[static_cast<std::size_t>(i)]);
+        if (lambda > largest) {
+            largest = lambda;
+            bound.body = i;
+        }
+    }
+    if (bound.body < 0) return bound;  // nothing acts yet: the caller takes the contact laws' own scale
+    bound.critical = std::sqrt(2.0 / largest);
+    const double zeta = damping_at(state, model, 2.0 / bound.critical);
+    bound.with_damping = bound.critical * (std::sqrt(1.0 + zeta * zeta) - zeta);
+    bound.limiter = "body " + std::to_string(state.bodies.id[bound.body]) + ", stiffest spring: " + s.source[static_cast<std::size_t>(bound.body)];
+    return bound;
+}
+
+}  // namespace grainfrac

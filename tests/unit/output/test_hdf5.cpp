@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// results.h5, also while it grows, and checkpoints.
+#include "io/checkpoint.h"
+#include "io/hdf5_results.h"
+#include "sample.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+using namespace grainfrac;
+
+namespace {
+
+template <class T>
+bool same_bits(const Buffer<T>& a, const Buffer<T>& b)
+{
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.host().data(), b.host().data(), a.host().size() * sizeof(T)) == 0);
+}
+
+/// Every array of both, side by side.
+template <class Owner>
+void check_same(Owner& a, Owner& b)
+{
+    std::vector<const void*> first;
+    a.for_each_array([&](const char*, auto& array) { first.push_back(&array); });
+    std::size_t k = 0;
+    b.for_each_array([&](const char* name, auto& array) {
+        INFO(name);
+        CHECK(same_bits(*static_cast<const std::remove_reference_t<decltype(array)>*>(first[k++]), array));
+    });
+}
+
+bool equal_states(State& a, State& b)
+{
+    bool equal = a.time == b.time && a.step == b.step && a.travel == b.travel && a.initial_energy == b.initial_energy &&
+                 same_bits(a.slots.force, b.slots.force) && same_bits(a.slots.torque_a, b.slots.torque_a) &&
+                 same_bits(a.slots.torque_b, b.slots.torque_b) && same_bits(a.incidence.begin, b.incidence.begin) &&
+                 same_bits(a.incidence.entry, b.incidence.entry) &&
+                 std::memcmp(&a.past_contacts, &b.past_contacts, sizeof a.past_contacts) == 0;
+    const auto compare = [&](auto& x, auto& y) {
+        std::vector<const void*> first;
+        x.for_each_array([&](const char*, auto& array) { first.push_back(&array); });
+        std::size_t k = 0;
+        y.for_each_array([&](const char*, auto& array) {
+            equal =
+                equal && same_bits(*static_cast<const std::remove_reference_t<decltype(array)>*>(first[k++]), array);
+        });
+    };
+    compare(a.bodies, b.bodies);
+    compare(a.interfaces, b.interfaces);
+    compare(a.points, b.points);
+    compare(a.corners, b.corners);
+    compare(a.parallels, b.parallels);
+    compare(a.contacts, b.contacts);
+    return equal;
+}
+
+/// Runs a hidden case of this very program on `file`: HDF5 does not open a file twice in one process.
+int read_in_another_process(const std::filesystem::path& file, const std::string& test)
+{
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    ::setenv("GF_TEST_FILE", file.c_str(), 1);
+    return std::system(("'" + program + "' '" + test + "' > /dev/null").c_str());
+}
+
+}  // namespace
+
+TEST_CASE("live reader of results.h5", "[.live]")
+{
+    const Hdf5File file = Hdf5File::open(std::getenv("GF_TEST_FILE"), Hdf5File::Access::live);
+    REQUIRE(file.extents("/history")[0] == 3);
+    CHECK(file.read<double>("/history")[file.extents("/history")[1] + 1] == 1e-7);
+    REQUIRE(file.extents("/snapshots/time") == std::vector<hsize_t>{2});
+    CHECK(file.read<std::int64_t>("/snapshots/step") == std::vector<std::int64_t>{300, 400});
+    CHECK(file.extents("/snapshots/position") == std::vector<hsize_t>{2, 3, 3});
+    CHECK(file.read<double>("/snapshots/position")[0] == std::sqrt(3.0) * sample::side);
+    CHECK(file.read<double>("/cracks/time") == std::vector<double>{2e-6});
+}
+
+TEST_CASE("results.h5 is read while it is written", "[output][hdf5]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    Hdf5Results results(folder / "results.h5", sample::facts());
+    for (int k = 0; k < 3; ++k) results.append_history(sample::history_row(k));
+    results.append_snapshot(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
+    w.state.step = 400;
+    results.append_snapshot(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
+    CHECK(read_in_another_process(folder / "results.h5", "live reader of results.h5") == 0);
+    results.close();
+}
+
+TEST_CASE("results.h5 holds what was appended", "[output][hdf5]")
+{
+    sample::World w = sample::make_world();
+    sample::add_parallel_bond(w.state);
+    const sample::TemporaryFolder folder;
+    {
+        Hdf5Results results(folder / "results.h5", sample::facts());
+        for (int k = 0; k < 3; ++k) results.append_history(sample::history_row(k));
+        results.append_snapshot(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
+        w.state.interfaces.damage.host()[1] = 1.0;
+        w.state.interfaces.failure_time.host()[1] = 4e-6;
+        w.state.interfaces.shear_share.host()[1] = 0.5 * w.state.interfaces.area[1];
+        w.state.time = 5e-6;
+        w.state.step = 500;
+        results.finish(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
+        results.close();
+    }
+    const Hdf5File file = Hdf5File::open(folder / "results.h5");
+    CHECK(file.attribute<std::int64_t>("/", "seed") == 42);
+    CHECK(file.attribute<std::int64_t>("/", "schema") == results_schema);
+    CHECK(file.text_attribute("/", "version") == "0.1.0");
+    CHECK(file.text_attribute("/snapshots/stress", "unit") == "Pa");
+    const std::string columns = file.text_attribute("/history", "columns");
+    CHECK(columns.substr(0, 19) == "step,time_s,displac");
+    const auto extents = file.extents("/history");
+    REQUIRE(extents == std::vector<hsize_t>{3, 22});
+    CHECK(file.read<double>("/history")[2 * extents[1]] == 2e6);
+
+    // Rows by grain id, whatever the order of the bodies.
+    CHECK(file.read<std::int32_t>("/snapshots/grain_id") == std::vector<std::int32_t>{0, 1, 2});
+    CHECK(file.read<std::int32_t>("/snapshots/cluster") == std::vector<std::int32_t>{0, 0, 1});
+    const double face = sample::side * sample::thickness, disc = std::numbers::pi * 0.2e-3 * 0.2e-3;
+    CHECK(file.read<double>("/snapshots/damage")[1] == Approx((0.25 * face + disc) / (face + disc)).epsilon(1e-12));
+    CHECK(file.extents("/snapshots/stress") == std::vector<hsize_t>{1, 3, 6});
+    CHECK(file.read<double>("/snapshots/stress")[2 * 6 + 1] == -30e6);
+    CHECK(file.extents("/snapshots/orientation") == std::vector<hsize_t>{1, 3, 4});
+
+    // Bonds by the ids of their grains: (0, 1), then (0, 2) and (1, 2) which is the parallel one.
+    CHECK(file.read<std::int32_t>("/bonds/kind") == std::vector<std::int32_t>{0, 0, 1});
+    CHECK(file.read<std::int32_t>("/bonds/grain_a") == std::vector<std::int32_t>{0, 2, 2});
+    CHECK(file.read<std::int32_t>("/bonds/grain_b") == std::vector<std::int32_t>{1, 0, 1});
+    CHECK(file.read<double>("/bonds/damage") == std::vector<double>{0.25, 1.0, 1.0});
+    CHECK(file.read<double>("/bonds/failure_time") == std::vector<double>{4e-6, 2e-6, 2.5e-6});
+    CHECK(file.read<std::int32_t>("/bonds/cause") == std::vector<std::int32_t>{2, 0, 1});
+
+    CHECK(file.read<double>("/cracks/time") == std::vector<double>{2e-6, 2.5e-6, 4e-6});
+    CHECK(file.extents("/cracks/center") == std::vector<hsize_t>{3, 3});
+    CHECK(file.read<double>("/cracks/center")[0] ==
+          Approx(0.5 * std::sqrt(3.0) * sample::side - 0.5 * sample::crack_opening));
+    CHECK(file.read<std::int32_t>("/fragments/snapshot") == std::vector<std::int32_t>{0, 0, -1, -1});
+    CHECK(file.read<std::int32_t>("/fragments/grains") == std::vector<std::int32_t>{2, 1, 2, 1});
+    CHECK(file.read<double>("/fragments/volume")[0] == Approx(2.0 * sample::prism_volume).epsilon(1e-12));
+}
+
+TEST_CASE("a grain that comes later gets its own row", "[output][hdf5]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    Hdf5Results results(folder / "results.h5", sample::facts());
+    results.append_snapshot(w.model, w.state, w.fields, {});
+    w.state.bodies.id.host()[0] = 7;  // 2 is gone, 7 is new
+    results.append_snapshot(w.model, w.state, w.fields, {});
+    results.close();
+    const Hdf5File file = Hdf5File::open(folder / "results.h5");
+    CHECK(file.read<std::int32_t>("/snapshots/grain_id") == std::vector<std::int32_t>{0, 1, 2, 7});
+    CHECK(file.read<std::int32_t>("/snapshots/cluster") == std::vector<std::int32_t>{0, 0, 1, -1, 0, 0, -1, 1});
+    CHECK(std::isnan(file.read<double>("/snapshots/damage")[3]));
+}
+
+TEST_CASE("a run without any grain makes a valid results.h5", "[output][hdf5]")
+{
+    const sample::TemporaryFolder folder;
+    Hdf5Results results(folder / "results.h5", sample::facts());
+    results.append_snapshot({}, {}, {}, {});
+    results.finish({}, {}, {}, {});
+    results.close();
+    CHECK(Hdf5File::open(folder / "results.h5").extents("/snapshots/position") == std::vector<hsize_t>{1, 0, 3});
+}
+
+TEST_CASE("a checkpoint comes back bit for bit", "[output][checkpoint]")
+{
+    sample::World w = sample::make_world();
+    sample::add_parallel_bond(w.state);
+    w.state.bodies.torque.host()[0] = {-0.0, std::nan(""), 5e-324};
+    w.model.local_damping = 0.7;
+    w.model.fracture_active = false;
+    const sample::TemporaryFolder folder;
+    write_checkpoint(folder / "a.h5", w.model, w.state, "0.1.0");
+    CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
+
+    sample::World other = sample::make_world();
+    other.model.wall_motion.host()[1] = {};
+    read_checkpoint(folder / "a.h5", other.model, other.state);
+    check_same(w.state.bodies, other.state.bodies);
+    check_same(w.state.interfaces, other.state.interfaces);
+    check_same(w.state.points, other.state.points);
+    check_same(w.state.corners, other.state.corners);
+    check_same(w.state.parallels, other.state.parallels);
+    check_same(w.state.contacts, other.state.contacts);
+    CHECK(equal_states(w.state, other.state));
+    CHECK(same_bits(w.model.wall_motion, other.model.wall_motion));
+    CHECK(other.model.local_damping == 0.7);
+    CHECK_FALSE(other.model.fracture_active);
+}
+
+TEST_CASE("a damaged checkpoint is refused", "[output][checkpoint]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    write_checkpoint(folder / "a.h5", w.model, w.state, "0.1.0");
+    std::string bytes;
+    {
+        std::ifstream in(folder / "a.h5", std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    int refused = 0, harmless = 0;
+    // A prime stride reaches data, headers and unused space; a flip may only go unnoticed where it changes nothing.
+    for (std::size_t at = 11; at < bytes.size(); at += 211) {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+        {
+            std::ofstream out(folder / "b.h5", std::ios::binary);
+            out << damaged;
+        }
+        sample::World other = sample::make_world();
+        other.state.time = -1.0;
+        try {
+            read_checkpoint(folder / "b.h5", other.model, other.state);
+            INFO("flipped byte " << at << " of " << bytes.size());
+            CHECK(equal_states(w.state, other.state));
+            ++harmless;
+        } catch (const std::runtime_error&) {
+            CHECK(other.state.time == -1.0);  // nothing half read
+            ++refused;
+        }
+    }
+    CHECK(refused > 20);
+    INFO(refused << " refused, " << harmless << " harmless");
+    // Data is told by name: the position of the first body.
+    const double x = w.state.bodies.position[1].x;
+    const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(&x), sizeof x));
+    REQUIRE(place != std::string::npos);
+    bytes[place] = static_cast<char>(bytes[place] ^ 1);
+    {
+        std::ofstream out(folder / "b.h5", std::ios::binary);
+        out << bytes;
+    }
+    REQUIRE_THROWS_WITH(read_checkpoint(folder / "b.h5", w.model, w.state), Catch::Contains("damaged"));
+    // A cut file.
+    std::filesystem::resize_file(folder / "b.h5", bytes.size() / 2);
+    REQUIRE_THROWS_AS(read_checkpoint(folder / "b.h5", w.model, w.state), std::runtime_error);
+    REQUIRE_THROWS_AS(read_checkpoint(folder / "none.h5", w.model, w.state), std::runtime_error);
+}
+
+TEST_CASE("a checkpoint of another input is refused", "[output][checkpoint]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    write_checkpoint(folder / "a.h5", w.model, w.state, "0.1.0");
+    Model other;
+    State state;
+    REQUIRE_THROWS_WITH(read_checkpoint(folder / "a.h5", other, state), Catch::Contains("another input"));
+}
+
+TEST_CASE("an empty state makes a checkpoint", "[output][checkpoint]")
+{
+    const sample::TemporaryFolder folder;
+    Model model;
+    State state, back;
+    state.time = 7.0;
+    write_checkpoint(folder / "a.h5", model, state, "0.1.0");
+    read_checkpoint(folder / "a.h5", model, back);
+    CHECK(back.time == 7.0);
+    CHECK(back.bodies.size() == 0);
+}
+
+TEST_CASE("the newest two checkpoints are kept", "[output][checkpoint]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    for (const std::int64_t step : {9, 10, 100}) {
+        w.state.step = step;
+        write_next_checkpoint(folder.path(), w.model, w.state, "0.1.0");
+    }
+    std::ofstream(folder / "notes.h5") << "mine";
+    const auto all = list_checkpoints(folder.path());
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].filename() == "step_100.h5");
+    CHECK(all[1].filename() == "step_10.h5");
+    CHECK(list_checkpoints(folder / "nowhere").empty());
+}

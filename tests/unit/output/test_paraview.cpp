@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ParaView layers, read back with VTK's own readers.
+#ifdef GF_HAVE_VTK
+#include "io/atomic_file.h"
+#include "io/bond_faces.h"
+#include "io/paraview.h"
+#include "io/shape_surface.h"
+#include "sample.h"
+
+#include <catch2/catch.hpp>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <map>
+
+using namespace grainfrac;
+
+namespace {
+
+template <class Reader, class Data>
+vtkSmartPointer<Data> read_xml(const std::filesystem::path& path)
+{
+    vtkNew<Reader> reader;
+    REQUIRE(reader->CanReadFile(path.c_str()) != 0);
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    REQUIRE(reader->GetErrorCode() == 0);
+    return reader->GetOutput();
+}
+const auto read_grid = read_xml<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>;
+const auto read_surface = read_xml<vtkXMLPolyDataReader, vtkPolyData>;
+
+double value(vtkFieldData* data, const char* name, vtkIdType tuple, int component = 0)
+{
+    vtkDataArray* array = data->GetArray(name);
+    INFO(name);
+    REQUIRE(array != nullptr);
+    return array->GetComponent(tuple, component);
+}
+Vec3 vector(vtkFieldData* data, const char* name, vtkIdType tuple)
+{
+    return {value(data, name, tuple, 0), value(data, name, tuple, 1), value(data, name, tuple, 2)};
+}
+
+std::vector<Vec3> points_of(vtkCell* cell)
+{
+    std::vector<Vec3> points;
+    for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k) {
+        double p[3];
+        cell->GetPoints()->GetPoint(k, p);
+        points.push_back({p[0], p[1], p[2]});
+    }
+    return points;
+}
+
+/// By the divergence theorem over the faces that VTK sees: right only if they are closed and look outward.
+double cell_volume(vtkCell* cell)
+{
+    double volume = 0.0;
+    for (int f = 0; f < cell->GetNumberOfFaces(); ++f) {
+        const std::vector<Vec3> face = points_of(cell->GetFace(f));
+        volume += dot(area_vector(face), face.front()) / 3.0;
+    }
+    return volume;
+}
+
+}  // namespace
+
+TEST_CASE("grains are polyhedra with their fields", "[output][paraview]")
+{
+    const sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    write_grains(folder / "grains.vtu", w.model, w.state, w.fields);
+    const auto grid = read_grid(folder / "grains.vtu");
+    REQUIRE(grid->GetNumberOfCells() == 3);
+    vtkFieldData* data = grid->GetCellData();
+    for (vtkIdType i = 0; i < 3; ++i) {
+        CHECK(grid->GetCellType(i) == VTK_POLYHEDRON);
+        CHECK(cell_volume(grid->GetCell(i)) == Approx(sample::prism_volume).epsilon(1e-12));
+        CHECK(value(data, "grain_id", i) == w.state.bodies.id[static_cast<int>(i)]);
+        CHECK(value(data, "material", i) == 0.0);
+        CHECK(vector(data, "velocity", i) == w.state.bodies.velocity[static_cast<int>(i)]);
+        CHECK(vector(data, "angular_velocity", i) == w.state.bodies.angular_velocity[static_cast<int>(i)]);
+    }
+    CHECK(value(data, "cluster", 0) == 1.0);
+    CHECK(value(data, "displacement", 0, 0) == Approx(-sample::crack_opening).epsilon(1e-9));
+    CHECK(norm(vector(data, "rotation", 1)) < 1e-15);
+    CHECK(value(data, "damage", 0) == 1.0);
+    CHECK(value(data, "damage", 1) == Approx(0.625).epsilon(1e-12));
+    CHECK(value(data, "damage", 2) == 0.25);
+    const Quat crystal = w.state.bodies.orientation[1] * w.state.bodies.crystal[1];
+    CHECK(value(data, "crystal_orientation", 1, 0) == crystal.w);
+    CHECK(value(data, "crystal_orientation", 1, 3) == crystal.z);
+    CHECK(value(grid->GetFieldData(), "TimeValue", 0) == w.state.time);
+}
+
+TEST_CASE("the stress of a grain and what is derived from it", "[output][paraview]")
+{
+    const sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    write_grains(folder / "grains.vtu", w.model, w.state, w.fields);
+    const auto grid = read_grid(folder / "grains.vtu");
+    vtkFieldData* data = grid->GetCellData();
+    const double expected[] = {10e6, -30e6, 5e6, 2e6, 1e6, 0.0};
+    for (int c = 0; c < 6; ++c) CHECK(value(data, "stress", 0, c) == expected[c]);
+    CHECK(std::string(data->GetArray("stress")->GetComponentName(4)) == "YZ");
+    CHECK(value(data, "pressure", 0) == Approx(-5e6));
+    const Vec3 s = vector(data, "principal_stress", 0), n = vector(data, "principal_direction_1", 0);
+    CHECK(s.x >= s.y);
+    CHECK(s.y >= s.z);
+    CHECK(s.x + s.y + s.z == Approx(-15e6).epsilon(1e-12));
+    const double mises =
+        std::sqrt(0.5 * ((s.x - s.y) * (s.x - s.y) + (s.y - s.z) * (s.y - s.z) + (s.z - s.x) * (s.z - s.x)));
+    CHECK(value(data, "von_mises", 0) == Approx(mises).epsilon(1e-12));
+    // The direction is an eigenvector: 1e-6 of the stress, far above what single precision would lose.
+    CHECK(norm(w.fields.stress[0] * n - s.x * n) < 10.0);
+    CHECK(norm(n) == Approx(1.0));
+}
+
+TEST_CASE("bonds, cracks and contacts", "[output][paraview]")
+{
+    sample::World w = sample::make_world();
+    sample::add_parallel_bond(w.state);
+    w.state.slots = {};
+    w.state.slots.resize(4);
+    w.state.slots.force.host()[1] = -1e6 * w.state.interfaces.area[1] * interface_face(w.state, 1).normal;
+    w.state.slots.force.host()[3] = {0, -25, 0};
+    const sample::TemporaryFolder folder;
+    const double face_area = sample::side * sample::thickness;
+
+    write_bonds(folder / "bonds.vtp", w.state);
+    const auto bonds = read_surface(folder / "bonds.vtp");
+    REQUIRE(bonds->GetNumberOfCells() == 3);
+    vtkFieldData* data = bonds->GetCellData();
+    CHECK(bonds->GetCell(0)->GetNumberOfPoints() == 4);
+    CHECK(bonds->GetCell(2)->GetNumberOfPoints() == 16);
+    CHECK(norm(area_vector(points_of(bonds->GetCell(0)))) == Approx(face_area).epsilon(1e-12));
+    const double states[] = {2, 1, 2}, causes[] = {0, -1, 1}, kinds[] = {0, 0, 1};
+    for (int i = 0; i < 3; ++i) {
+        CHECK(value(data, "state", i) == states[i]);
+        CHECK(value(data, "cause", i) == causes[i]);
+        CHECK(value(data, "kind", i) == kinds[i]);
+    }
+    CHECK(value(data, "opening", 0) == Approx(sample::crack_opening).epsilon(1e-9));
+    CHECK(value(data, "opening", 1) == Approx(0.0).margin(1e-15));
+    CHECK(value(data, "normal_stress", 1) == Approx(1e6).epsilon(1e-12));
+    CHECK(value(data, "shear_stress", 1) == Approx(0.0).margin(1e-6));
+    CHECK(value(data, "stored_energy", 1) == 3e-4);
+    CHECK(value(data, "area", 1) == Approx(face_area).epsilon(1e-12));
+    CHECK(value(data, "normal", 0, 0) == Approx(1.0).epsilon(1e-12));
+
+    const std::vector<CrackFace> cracks = collect_cracks(w.model, w.state);
+    write_cracks(folder / "cracks.vtp", w.state, cracks);
+    const auto faces = read_surface(folder / "cracks.vtp");
+    REQUIRE(faces->GetNumberOfCells() == 2);
+    data = faces->GetCellData();
+    for (const char* name : {"mode", "cause", "time", "first_damage_time", "area", "normal", "opening", "K_I", "K_II",
+                             "grain_a", "grain_b"})
+        CHECK(data->GetArray(name) != nullptr);
+    CHECK(value(data, "time", 0) == 2e-6);
+    CHECK(value(data, "time", 1) == 2.5e-6);
+    CHECK(value(data, "grain_a", 0) == 2.0);
+    CHECK(value(data, "grain_b", 0) == 0.0);
+    CHECK(value(data, "cause", 1) == 1.0);
+
+    write_contacts(folder / "contacts.vtp", w.state);
+    const auto contacts = read_surface(folder / "contacts.vtp");
+    REQUIRE(contacts->GetNumberOfVerts() == 1);
+    data = contacts->GetPointData();
+    CHECK(vector(data, "force", 0) == Vec3{0, -25, 0});
+    CHECK(vector(data, "normal", 0) == Vec3{0, -1, 0});
+    CHECK(value(data, "penetration", 0) == 1e-7);
+    CHECK(value(data, "body_a", 0) == 2.0);
+    CHECK(value(data, "body_b", 0) == 3.0);
+}
+
+TEST_CASE("walls are closed surfaces", "[output][paraview]")
+{
+    const sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    write_walls(folder / "walls.vtp", w.model, w.state);
+    const auto walls = read_surface(folder / "walls.vtp");
+    std::map<int, double> volume;
+    for (vtkIdType i = 0; i < walls->GetNumberOfCells(); ++i) {
+        const std::vector<Vec3> face = points_of(walls->GetCell(i));
+        volume[static_cast<int>(value(walls->GetCellData(), "wall", i))] += dot(area_vector(face), face.front()) / 3.0;
+    }
+    REQUIRE(volume.size() == 2);
+    CHECK(volume[0] == Approx(8.2e-3 * 1e-3 * 6e-3).epsilon(1e-12));                // grown box
+    CHECK(volume[1] == Approx(4.0 / 3.0 * std::numbers::pi * 1e-9).epsilon(0.01));  // 48 meridians
+    double bounds[6];
+    walls->GetBounds(bounds);
+    CHECK(bounds[2] == Approx(-sample::side - 1e-3).epsilon(1e-12));
+}
+
+TEST_CASE("surfaces of shapes are closed and look outward", "[output][paraview]")
+{
+    Shapes shapes;
+    add_sphere_shape(shapes, 2.0);
+    add_cylinder_shape(shapes, {1, 0, 0}, 3.0, 0.5);
+    add_shape(shapes, make_hexagonal_prism(1.0, 2.0), 0.25);
+    const double grown = 1.0 + 0.25 * 2.0 / std::sqrt(3.0);
+    const double expected[] = {4.0 / 3.0 * std::numbers::pi * 8.0,
+                               std::numbers::pi * 0.25 * 3.0 + 4.0 / 3.0 * std::numbers::pi * 0.125,
+                               1.5 * std::sqrt(3.0) * grown * grown * 2.5};
+    for (int s = 0; s < 3; ++s) {
+        const Surface surface = shape_surface(shapes, s);
+        std::map<std::pair<int, int>, int> edges;
+        double volume = 0.0;
+        for (const auto& loop : surface.faces) {
+            std::vector<Vec3> face;
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                face.push_back(surface.points.at(static_cast<std::size_t>(loop[k])));
+                ++edges[{loop[k], loop[(k + 1) % loop.size()]}];
+            }
+            volume += dot(area_vector(face), face.front()) / 3.0;
+        }
+        for (const auto& [edge, count] : edges) {
+            CHECK(count == 1);
+            CHECK(edges.count({edge.second, edge.first}) == 1);
+        }
+        CHECK(volume == Approx(expected[s]).epsilon(s == 2 ? 1e-12 : 0.01));
+    }
+}
+
+TEST_CASE("layers without anything in them are valid files", "[output][paraview]")
+{
+    const Model model;
+    const State state;
+    const sample::TemporaryFolder folder;
+    write_grains(folder / "grains.vtu", model, state, {});
+    write_bonds(folder / "bonds.vtp", state);
+    write_contacts(folder / "contacts.vtp", state);
+    write_cracks(folder / "cracks.vtp", state, {});
+    write_walls(folder / "walls.vtp", model, state);
+    CHECK(read_grid(folder / "grains.vtu")->GetNumberOfCells() == 0);
+    for (const char* name : {"bonds.vtp", "contacts.vtp", "cracks.vtp", "walls.vtp"})
+        CHECK(read_surface(folder / name)->GetNumberOfCells() == 0);
+}
+
+TEST_CASE("the series enter each frame with its time", "[output][paraview]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    ParaviewSeries series(folder.path());
+    series.write_frame(w.model, w.state, w.fields, {}, true);
+    w.state.time = 1.5e-5;
+    series.write_frame(w.model, w.state, w.fields, {}, false);
+    for (const std::string kind : {"grains", "bonds", "contacts", "cracks", "walls"}) {
+        const std::string text = read_file(folder / (kind + ".pvd"));
+        CHECK(text.find("type=\"Collection\"") != std::string::npos);
+        std::vector<std::string> files;
+        for (std::size_t at = 0; (at = text.find("file=\"", at)) != std::string::npos; ++at)
+            files.push_back(text.substr(at + 6, text.find('"', at + 6) - at - 6));
+        REQUIRE(files.size() == (kind == "contacts" ? 1 : 2));
+        CHECK(files[0] == kind + "_000000." + (kind == "grains" ? "vtu" : "vtp"));
+        for (const std::string& file : files) CHECK(std::filesystem::exists(folder / file));
+        CHECK(text.find("timestep=\"3e-06\"") != std::string::npos);
+        CHECK((text.find("timestep=\"1.5e-05\"") != std::string::npos) == (kind != "contacts"));
+    }
+}
+#endif
