@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every package the project uses; all are Debian 12 packages, listed in scripts/packages.txt.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.5 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

@@ -22,45 +22,23 @@ constexpr double jaw_radius_factor = 1.5;
 /// Flat platens: thickness over width.
 constexpr double platen_thickness = 0.5;
 
-/// Farthest point of the dilated bodies along `up` among core vertices within `half_width` of the load line.
-double pole(const Model& model, const State& state, const Vec3& center, const Vec3& up, const Vec3& side, double half_width)
-{
-    const Bodies& b = state.bodies;
-    double top = -1e300;
-    for (int i = 0; i < b.size(); ++i) {
-        if (b.inverse_mass[i] == 0.0) continue;
-        const int s = b.shape[i];
-        for (int v = model.shapes.vertex_begin[s]; v < model.shapes.vertex_begin[s + 1]; ++v) {
-            const Vec3 x = b.position[i] + rotate(b.orientation[i], model.shapes.vertices[v]) - center;
-            if (std::fabs(dot(x, side)) <= half_width) top = std::max(top, dot(x, up) + model.shapes.radius[s]);
-        }
-    }
-    return top;
-}
-
 struct Jaw {
     Vec3 center, up, side;
     double depth = 0.0, half_width = 0.0;
 };
 
-void flat_platen(const Jaw& j, int wall, Model& model, State& state)
+void flat_platen(const Jaw& j, double radius, int wall, Model& model, State& state)
 {
-    const double top = pole(model, state, j.center, j.up, j.side, j.half_width);
-    if (top < 0.0) {
-        throw InputError("test.contact_half_width", "no grain reaches under the platen; widen it, or refine the grains");
-    }
-    add_plate(model, state, wall, j.center + top * j.up, -j.up, j.side, 2.0 * j.half_width, j.depth, 2.0 * platen_thickness * j.half_width);
+    add_plate(model, state, wall, j.center + 2.0 * radius * j.up, -j.up, j.side, 2.0 * j.half_width, j.depth, 2.0 * platen_thickness * j.half_width);
 }
 
 /// Plates tangent to the jaw's circle, one for each facet of the disc that the contact covers, centred on the pole.
-void curved_platen(const Jaw& j, double jaw_radius, double facet_angle, int wall, Model& model, State& state)
+void curved_platen(const Jaw& j, double radius, double jaw_radius, double facet_angle, int wall, Model& model, State& state)
 {
     const double width = 2.0 * jaw_radius * std::tan(0.5 * facet_angle);
-    const double top = pole(model, state, j.center, j.up, j.side, 0.5 * width);
-    if (top < 0.0) throw InputError("test.platen", "no grain reaches under the jaw; refine the grains");
-    const Vec3 jaw_center = j.center + (top - jaw_radius) * j.up;
-    const int plates_each_side = std::max(0, static_cast<int>(std::floor(std::asin(std::min(1.0, j.half_width / jaw_radius)) / facet_angle + 0.5)) - 0);
-    for (int k = -plates_each_side; k <= plates_each_side; ++k) {
+    const Vec3 jaw_center = j.center + (2.0 * radius - jaw_radius) * j.up;
+    const int each_side = static_cast<int>(std::asin(std::min(1.0, j.half_width / jaw_radius)) / facet_angle);
+    for (int k = -each_side; k <= each_side; ++k) {
         const double angle = k * facet_angle;
         const Vec3 out = std::cos(angle) * j.up + std::sin(angle) * j.side;
         const Vec3 along = std::cos(angle) * j.side - std::sin(angle) * j.up;
@@ -83,19 +61,20 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
 
     Experiment e;
     e.kind = "brazilian";
-    const int grain_bodies = state.bodies.size();
     for (const int sign : {1, -1}) {
         Jaw j = jaw;
         j.up = static_cast<double>(sign) * jaw.up;
         const int wall = add_wall(model, sign > 0 ? "platen_top" : "platen_bottom");
         if (c.test.platen == "curved") {
-            const double radius = c.test.platen_radius > 0.0 ? c.test.platen_radius : jaw_radius_factor * 0.5 * diameter;
-            curved_platen(j, radius, 2.0 * std::numbers::pi / region.facets, wall, model, state);
+            const double jaw_radius = c.test.platen_radius > 0.0 ? c.test.platen_radius : jaw_radius_factor * 0.5 * diameter;
+            curved_platen(j, 0.5 * diameter, jaw_radius, 2.0 * std::numbers::pi / region.facets, wall, model, state);
         } else {
-            flat_platen(j, wall, model, state);
+            flat_platen(j, 0.5 * diameter, wall, model, state);
+        }
+        if (!move_to_touch(model, state, wall, -j.up)) {
+            throw InputError("test.contact_half_width", "the platen passes between the grains; widen it or refine the grains");
         }
     }
-    if (state.bodies.size() == grain_bodies) throw InputError("test.platen", "no platen could be placed");
 
     e.specimen.length = diameter;
     e.specimen.stress_area = 0.5 * std::numbers::pi * diameter * height;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiment/walls.h"
 
+#include "contact/manifold.h"
 #include "generate/assemble.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace grainfrac {
 
@@ -21,7 +24,50 @@ int group_of_wall(const Model& model, int wall)
     return g;
 }
 
+/// Least gap between two dilated bodies along with an upper bound for one that cannot matter: no exact distance is
+/// computed for bodies whose bounding balls are farther apart than `best`.
+double least_gap(const Model& model, const State& state, const std::vector<int>& wall_bodies, double best)
+{
+    const Bodies& b = state.bodies;
+    const ShapesView shapes = view(model.shapes, Device::cpu);
+    for (const int w : wall_bodies) {
+        const ContactBody x{shapes, b.shape[w], b.position[w], b.orientation[w]};
+        for (int i = 0; i < b.size(); ++i) {
+            if (b.inverse_mass[i] == 0.0) continue;
+            const double reach = shapes.bounding_radius[b.shape[i]] + shapes.bounding_radius[b.shape[w]];
+            if (norm(b.position[i] - b.position[w]) - reach >= best) continue;
+            const ContactBody y{shapes, b.shape[i], b.position[i], b.orientation[i]};
+            best = std::min(best, closest_points(x.core(), y.core(), y.position - x.position).distance - x.radius() - y.radius());
+        }
+    }
+    return best;
+}
+
 }  // namespace
+
+bool move_to_touch(const Model& model, State& state, int wall, const Vec3& direction)
+{
+    const double closed = 1e-13 * model.nominal_length;  // gap that counts as touching: round-off of the distances
+    constexpr int most_rounds = 2000;
+    std::vector<int> bodies;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (state.bodies.wall[i] == wall) bodies.push_back(i);
+    }
+    const std::vector<Vec3> before = state.bodies.position.host();
+    double travelled = 0.0, limit = 0.0;
+    for (const Vec3& x : before) limit = std::max(limit, 4.0 * norm(x - before[static_cast<std::size_t>(bodies.front())]));
+    for (int round = 0; round < most_rounds && travelled <= limit; ++round) {
+        const double gap = least_gap(model, state, bodies, std::numeric_limits<double>::max());
+        if (gap <= closed) {
+            for (const int i : bodies) state.bodies.start_position.host()[static_cast<std::size_t>(i)] = state.bodies.position[i];
+            return true;
+        }
+        travelled += gap;
+        for (const int i : bodies) state.bodies.position.host()[static_cast<std::size_t>(i)] += gap * direction;
+    }
+    state.bodies.position.host() = before;
+    return false;
+}
 
 int add_wall(Model& model, const std::string& name)
 {

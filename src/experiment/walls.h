@@ -18,6 +18,10 @@ int add_wall(Model& model, const std::string& name);
 void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along, double width,
                double depth, double thickness);
 
+/// Move the bodies of a wall along the unit vector `direction` until the first of them touches a free body: gap 0, no
+/// overlap, found by conservative advancement. False (nothing moved) if they would pass all bodies.
+bool move_to_touch(const Model& model, State& state, int wall, const Vec3& direction);
+
 /// A wall of the input with its body.
 void add_wall(Model& model, State& state, const WallSpec& spec);
 

@@ -103,8 +103,11 @@ struct InterfaceForces {
             const double d_n = dot(jump, f.n), d_1 = dot(jump, f.t1), d_2 = dot(jump, f.t2);
             InterfacePointState p{point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
             const double onset_before = p.onset;
-            const InterfaceResponse r =
-                l(d_n, d_1, d_2, k_n, k_s, strength_factor[i], toughness_factor[i], may_fail && !by_face, fail_now, p);
+            const Vec3 rate = vb + cross(wb, arm_b) - va - cross(wa, arm_a);
+            const double rate_n = dot(rate, f.n);
+            const InterfaceJump before{d_n - dt * rate_n, d_1 - dt * dot(rate, f.t1), d_2 - dt * dot(rate, f.t2)};
+            const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i], may_fail && !by_face,
+                                          fail_now, p);
             if (p.onset > 0.0) {
                 point_damage[q] = p.damage;
                 point_onset[q] = p.onset;
@@ -128,8 +131,6 @@ struct InterfaceForces {
             torque_b -= cross(middle_b, t);
             Vec3 t_all = t;
             if (c_n > 0.0 && p.damage < 1.0) {
-                const Vec3 rate = vb + cross(wb, arm_b) - va - cross(wa, arm_a);
-                const double rate_n = dot(rate, f.n);
                 const Vec3 v = (w * (1.0 - p.damage)) * ((c_n - c_s) * rate_n * f.n + c_s * rate);
                 drag += v;
                 drag_torque_a += cross(middle_a, v);
@@ -195,14 +196,20 @@ struct ParallelForces {
     View<double> stored_energy, fracture_work, viscous_work, failure_time;
     View<Vec3> viscous_force;
 
+    GF_FN void clear(int s, int i) const
+    {
+        slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
+        stored_energy[i] = 0.0;
+        viscous_force[i] = Vec3{};
+        if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
+    }
+
     GF_FN void operator()(int i) const
     {
         const int s = first_slot + i;
-        if (cause[i] != static_cast<int>(BondCause::whole)) {
-            slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
-            stored_energy[i] = 0.0;
-            viscous_force[i] = Vec3{};
-            if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
+        const bool broken_before = cause[i] != static_cast<int>(BondCause::whole);
+        if (broken_before && norm2(force[i]) + norm2(moment[i]) == 0.0) {
+            clear(s, i);
             return;
         }
         const Quat qa = body.orientation[a[i]], qb = body.orientation[b[i]];
@@ -213,6 +220,13 @@ struct ParallelForces {
         const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
         const Vec3 rate = body.velocity[b[i]] + cross(wb, middle_b) - body.velocity[a[i]] - cross(wa, middle_a);
         const Vec3 turn = wb - wa;
+
+        if (broken_before) {  // the step in which the force falls to nothing: half of it did work on the way
+            fracture_work[i] += 0.5 * dt * (dot(force[i], rate) + dot(moment[i], turn));
+            force[i] = moment[i] = Vec3{};
+            clear(s, i);
+            return;
+        }
 
         const CircularSection section(radius[i]);
         const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];

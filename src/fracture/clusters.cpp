@@ -22,8 +22,8 @@ public:
     }
     void join(int i, int j)
     {
-        const auto [low, high] = std::minmax(root(i), root(j));
-        parent_[static_cast<std::size_t>(high)] = low;
+        const int a = root(i), b = root(j);
+        parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
 
 private:

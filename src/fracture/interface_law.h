@@ -32,6 +32,13 @@ struct InterfacePointState {
     double slip2 = 0.0;    ///< on the second [m]
 };
 
+/// Displacement jump in the frame of the interface.
+struct InterfaceJump {
+    double n = 0.0;   ///< opening, negative when closed [m]
+    double s1 = 0.0;  ///< sliding along the first tangent [m]
+    double s2 = 0.0;  ///< along the second [m]
+};
+
 /// What the point does now; works are those of this step, all per area.
 struct InterfaceResponse {
     double normal = 0.0;         ///< traction of b on a along n, positive in tension [Pa]
@@ -82,13 +89,15 @@ struct InterfaceLaw {
         return std::pow(std::pow((1.0 - B) / fracture_energy_I, e) + std::pow(B / fracture_energy_II, e), -1.0 / e);
     }
 
-    /// Traction for the jump (opening d_n, sliding d_1, d_2) and the new state.
+    /// Traction for the jump `d` and the new state. Dissipation is booked with the mean over the step from `before`, so
+    /// that the energy account closes to second order even when the traction drops at once.
     /// @param k_n, k_s stiffness per area [Pa/m]  @param strength, toughness scatter factors [-]
     /// @param may_start false: no new onset this step (whole-face law decides, or fracture is off)
     /// @param fail break now, whatever the onset surface says
-    GF_FN InterfaceResponse operator()(double d_n, double d_1, double d_2, double k_n, double k_s, double strength,
+    GF_FN InterfaceResponse operator()(const InterfaceJump& d, const InterfaceJump& before, double k_n, double k_s, double strength,
                                        double toughness, bool may_start, bool fail, InterfacePointState& p) const
     {
+        const double d_n = d.n, d_1 = d.s1, d_2 = d.s2;
         const double opening = d_n > 0.0 ? d_n : 0.0;
         const double closing = d_n < 0.0 ? -d_n : 0.0;
         const double shear_energy = k_s * (d_1 * d_1 + d_2 * d_2);
@@ -116,24 +125,29 @@ struct InterfaceLaw {
         }
 
         // friction: elastic slip s = d_t - d_sl, returned to the Coulomb cap
+        const double b_1 = before.s1 - p.slip1, b_2 = before.s2 - p.slip2;  // elastic slip before
         double s_1 = d_1 - p.slip1, s_2 = d_2 - p.slip2;
         if (p.onset > 0.0) {
             const double cap = residual_friction * k_n * closing / k_s;  // as a slip [m]
             const double length = std::sqrt(s_1 * s_1 + s_2 * s_2);
             if (length > cap) {
-                const double kept = cap / length;
-                r.friction_work = new_damage * k_s * cap * (length - cap);
-                p.slip1 = d_1 - kept * s_1;
-                p.slip2 = d_2 - kept * s_2;
-                s_1 *= kept;
-                s_2 *= kept;
+                const double lost = 1.0 - cap / length;
+                const double slid_1 = lost * s_1, slid_2 = lost * s_2;
+                s_1 -= slid_1;
+                s_2 -= slid_2;
+                p.slip1 = d_1 - s_1;
+                p.slip2 = d_2 - s_2;
+                // mean friction over the step times the slip; never negative, since friction follows the slip
+                r.friction_work = new_damage * k_s * std::fmax(0.0, 0.5 * ((b_1 + s_1) * slid_1 + (b_2 + s_2) * slid_2));
             }
         }
         const double friction_energy = k_s * (s_1 * s_1 + s_2 * s_2);
 
         if (new_damage > p.damage) {
-            // int 1/2 Y dD: in closed form along the bilinear envelope, so that G_c is met whatever the step
-            double released = 0.5 * Y * (new_damage - p.damage);
+            // int 1/2 Y dD: with the mean of Y where D jumps, in closed form along the bilinear envelope, so that G_c is met whatever the step
+            const double opening_before = before.n > 0.0 ? before.n : 0.0;
+            const double Y_before = k_n * opening_before * opening_before + k_s * (before.s1 * before.s1 + before.s2 * before.s2);
+            double released = 0.25 * (Y + Y_before) * (new_damage - p.damage);
             if (p.failure > p.onset) released = envelope_work(new_damage, p) - envelope_work(p.damage, p);
             r.fracture_work = released - 0.5 * friction_energy * (new_damage - p.damage);
             r.shear_share = (Y > 0.0 ? shear_energy / Y : 0.0) * (new_damage - p.damage);

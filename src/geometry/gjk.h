@@ -126,6 +126,10 @@ GF_FN Part on_triangle(const Simplex& s, int i, int j, int k)
     return nearer(nearer(on_segment(s, i, j), on_segment(s, j, k)), on_segment(s, k, i));
 }
 
+/// Height over size below which a tetrahedron is flat: the sign of its volume is round-off then, and all four faces are
+/// looked at. Prisms side by side make such tetrahedra all the time. Larger sends true overlaps through the slow path.
+constexpr double flat_tetrahedron = 1e-10;
+
 /// Reduce the simplex to the part nearest the origin; false if the origin is inside a tetrahedron.
 GF_FN bool reduce(Simplex& s)
 {
@@ -144,8 +148,10 @@ GF_FN bool reduce(Simplex& s)
         for (const auto& f : face) {
             const Vec3 p = s.corner[f[0]].w;
             const Vec3 n = cross(s.corner[f[1]].w - p, s.corner[f[2]].w - p);
-            const double origin_side = -dot(p, n), inner_side = dot(s.corner[f[3]].w - p, n);
-            if (origin_side * inner_side > 0.0) continue;  // the origin is behind this face
+            const Vec3 rest = s.corner[f[3]].w - p;
+            const double origin_side = -dot(p, n), inner_side = dot(rest, n);
+            const bool is_flat = inner_side * inner_side <= flat_tetrahedron * flat_tetrahedron * norm2(n) * norm2(rest);
+            if (!is_flat && origin_side * inner_side > 0.0) continue;  // the origin is behind this face
             const Part part = on_triangle(s, f[0], f[1], f[2]);
             if (!outside_any || part.distance2 < best.distance2) best = part;
             outside_any = true;

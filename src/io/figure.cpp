@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <plplot/plplot.h>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace grainfrac {
 
@@ -44,6 +46,26 @@ int give_up(const char* message)
     throw std::runtime_error(std::string("PLplot: ") + message);
 }
 
+bool has_room(const std::filesystem::path& file)
+{
+    constexpr std::size_t needed = 65536;  // [B] more than PLplot's list of drivers, less than most pictures
+    std::ofstream out(file, std::ios::binary);
+    out << std::string(needed, ' ');
+    out.close();
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    return out.good();
+}
+
+std::filesystem::path scratch_file()
+{
+    std::error_code ignored;
+    std::string name = (std::filesystem::temp_directory_path(ignored) / "grainfrac_XXXXXX").string();
+    const int fd = ::mkstemp(name.data());
+    if (fd >= 0) ::close(fd);
+    return name;
+}
+
 /// Whether PLplot can load the driver; plinit() would ask on the terminal for another.
 bool has_device(std::string_view device)
 {
@@ -71,8 +93,11 @@ void draw_to(const std::filesystem::path& path, const char* device, const std::s
              const std::function<void()>& paint)
 {
     const std::string temporary = aside(path).string();
-    // PLplot would ask on the terminal for another name.
-    if (!std::ofstream(temporary)) throw std::runtime_error(path.string() + ": cannot write");
+    // What PLplot cannot cope with, it answers by asking on the terminal or by a crash: look first.
+    if (!has_room(temporary)) throw std::runtime_error(path.string() + ": cannot write");
+    if (!has_room(scratch_file())) throw std::runtime_error(path.string() + ": PLplot needs room for temporary files");
+    if (!has_device(device))
+        throw std::runtime_error(fmt::format("{}: PLplot has no driver {}", path.string(), device));
     const auto discard = [&] {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
@@ -85,13 +110,14 @@ void draw_to(const std::filesystem::path& path, const char* device, const std::s
     }
     plsexit(give_up);
     try {
-        if (!has_device(device)) throw std::runtime_error(fmt::format("PLplot has no driver {}", device));
         plsdev(device);
         plsfnam(temporary.c_str());
         plspage(0.0, 0.0, static_cast<PLINT>(page_width), static_cast<PLINT>(page_height), 0, 0);
         plscmap0(red.data(), green.data(), blue.data(), static_cast<PLINT>(inks.size()));
         plinit();
         plfontld(0);
+        plsmaj(0.0, 0.6);
+        plsmin(0.0, 0.6);
         plschr(text_size, 1.0);
         pladv(0);
         paint();

@@ -76,7 +76,7 @@ void plot_crack_orientation(const std::filesystem::path& stem, const std::vector
         draw_title("Directions of the cracks in the xy plane",
                    "share of the crack area in each 10\u00b0; 0\u00b0 is x");
         // The page is 4:3; the window has the same aspect, so that the rings are round.
-        const Range x{-1.78 * radius, 1.78 * radius}, y{-1.335 * radius, 1.335 * radius};
+        const Range x{-1.6 * radius, 1.6 * radius}, y{-1.2 * radius, 1.2 * radius};
         draw_plain_window({0.05, 0.95, 0.01, 0.91}, x, y);
         constexpr double width = std::numbers::pi / sectors;
         for (int k = 0; k < 2 * sectors; ++k) {
@@ -116,8 +116,7 @@ void plot_fragment_sizes(const std::filesystem::path& stem, const std::vector<Fr
     std::vector<double> x, y;  // stairs: log10 of the diameter, per cent finer
     double finer = 0.0;
     const auto exponent = [&](double diameter) { return std::log10(diameter * prefix.factor); };
-    Range range;
-    range = pieces.empty() ? Range{} : Range{exponent(pieces.front().first), exponent(pieces.back().first)};
+    Range range = pieces.empty() ? Range{} : Range{exponent(pieces.front().first), exponent(pieces.back().first)};
     // Whole decades around the data: with less, the logarithmic axis may show no number at all.
     range = {std::floor(range.low - 0.05), std::ceil(range.high + 0.05)};
     x.push_back(range.low);

@@ -169,6 +169,9 @@ private:
                 fail(path + ".failure", fmt::format("\"face\" needs softening = \"brittle\", not \"{}\"", b.softening));
             }
         }
+        if (b.law != "interface" && b.softening == "bilinear" && given(path + ".softening") && right(path + ".law")) {
+            fail(path + ".softening", fmt::format("\"bilinear\" needs law = \"interface\", not \"{}\"", b.law));
+        }
         if (b.residual_friction && *b.residual_friction > b.friction && right(path + ".residual_friction") &&
             right(path + ".friction")) {
             fail(path + ".residual_friction",

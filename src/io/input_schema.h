@@ -203,9 +203,9 @@ void describe(V& v, PartSpec& s)
 template <class V>
 void describe(V& v, BondSpec& s)
 {
-    const bool breakable = s.failure != "unbreakable";
+    const bool breakable = s.failure != "unbreakable", has_softening = s.law == "interface";
     const Condition strengths{breakable, "failure = \"point\" or \"face\""};
-    const Condition energies{breakable && s.softening == "bilinear", "softening = \"bilinear\""};
+    const Condition energies{breakable && has_softening && s.softening == "bilinear", "softening = \"bilinear\""};
     v("between", s.between, {.meaning = "two names of parts, materials or walls, or `*`"});
     v("law", s.law,
       {.words = "interface | parallel | point",
@@ -230,7 +230,9 @@ void describe(V& v, BondSpec& s)
                   "softening brittle)"});
     v("softening", s.softening,
       {.words = "brittle | bilinear",
-       .meaning = "brittle: all is lost at onset; bilinear: linear loss over the fracture energy",
+       .used = {has_softening || s.softening == "brittle"},
+       .meaning = "brittle: all is lost at onset; bilinear: linear loss over the fracture energy (law interface; the "
+                  "others are brittle)",
        .source = "bilinear: Camanho & Davila 2002"});
     v("onset", s.onset,
       {.words = "mohr_coulomb | quadratic",

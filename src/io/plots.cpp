@@ -48,6 +48,7 @@ void plot_curves(const std::filesystem::path& stem, const std::string& title, co
     const ScaledLabel sx = scaled_label(x_label, largest(x)), sy = scaled_label(y_label, largest(y));
     y.add(0.0);
     x = Range{x.low * sx.factor, x.high * sx.factor}.widened(0.0);
+    x.high += 0.02 * (x.high - x.low);
     y = Range{y.low * sy.factor, y.high * sy.factor}.widened(0.04);
     Frame frame;
     if (curves.size() > 1) frame.right = 0.71;
@@ -91,11 +92,13 @@ void write_plots(const std::filesystem::path& folder, const Model& model, const 
                  const SnapshotFields& fields, const std::vector<CrackFace>& cracks)
 {
     const std::filesystem::path plots = folder / "plots";
-    const auto attempt = [](const std::function<void()>& plot) {
+    std::string failures;
+    const auto attempt = [&](const std::function<void()>& plot) {
         try {
             plot();
         } catch (const std::exception& error) {
-            spdlog::warn("a plot is missing: {}", error.what());
+            failures += (failures.empty() ? "" : "; ");
+            failures += error.what();
         }
     };
     attempt([&] { plot_load_displacement(plots / "load_displacement", read_history_csv(folder / "history.csv")); });
@@ -103,6 +106,7 @@ void write_plots(const std::filesystem::path& folder, const Model& model, const 
     attempt([&] { plot_crack_map(plots / "crack_map", model, state, cracks); });
     attempt([&] { plot_crack_orientation(plots / "crack_orientation", cracks); });
     attempt([&] { plot_fragment_sizes(plots / "fragment_sizes", collect_fragments(model, state, fields)); });
+    if (!failures.empty()) throw std::runtime_error(failures);
 }
 
 }  // namespace grainfrac

@@ -16,8 +16,8 @@ void plot_fragment_sizes(const std::filesystem::path& stem, const std::vector<Fr
 void plot_load_displacement(const std::filesystem::path& stem, const HistoryTable& history);
 void plot_energies(const std::filesystem::path& stem, const HistoryTable& history);
 
-/// All of them into folder/plots, the history read from folder/history.csv. A picture that fails is a warning in the
-/// log: no run is lost for one.
+/// All of them into folder/plots, the history read from folder/history.csv. Makes as many as it can, then throws
+/// std::runtime_error that names those it could not.
 void write_plots(const std::filesystem::path& folder, const Model& model, const State& state,
                  const SnapshotFields& fields, const std::vector<CrackFace>& cracks);
 

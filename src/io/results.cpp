@@ -122,14 +122,19 @@ void ResultFolder::write_checkpoint(const Model& model, const State& state)
 }
 
 void ResultFolder::finish(const std::string& summary_json, const Model& model, const State& state,
-                          const SnapshotFields& fields)
+                          const SnapshotFields& fields, bool plots)
 {
     const std::vector<CrackFace> cracks = collect_cracks(model, state);
     impl_->table.value().finish(model, state, fields, cracks);
     impl_->table.value().close();
     impl_->history.value().close();
     write_file(impl_->folder / "summary.json", summary_json);
-    write_plots(impl_->folder, model, state, fields, cracks);
+    if (!plots) return;
+    try {
+        write_plots(impl_->folder, model, state, fields, cracks);
+    } catch (const std::exception& e) {
+        throw PlotError(e.what());
+    }
 }
 
 }  // namespace grainfrac

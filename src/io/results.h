@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +88,11 @@ struct RunFacts {
     std::string test_kind;  ///< "brazilian", "custom"
 };
 
+/// A plot that could not be made: worth a warning, not the end of a run.
+struct PlotError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Owns the folder. Every file is either growing (history.csv, results.h5: flushed after each row, results.h5 readable
 /// live as SWMR) or written aside and renamed.
 class ResultFolder {
@@ -106,7 +112,8 @@ public:
     /// checkpoint/step_N.h5: everything that State::... for_each_array walks, checksummed; keeps the newest two.
     void write_checkpoint(const Model& model, const State& state);
     /// summary.json (text made by the caller), plots/*, paraview/view.py, bonds/cracks/fragments tables of results.h5.
-    void finish(const std::string& summary_json, const Model& model, const State& state, const SnapshotFields& fields);
+    /// Throws PlotError, with everything else written, if a plot could not be made; `plots` false: none are made.
+    void finish(const std::string& summary_json, const Model& model, const State& state, const SnapshotFields& fields, bool plots = true);
 
 private:
     struct Impl;

@@ -137,6 +137,9 @@ TEST_CASE("resolved.toml reads back as the same case, bit for bit", "[input]")
         "[simulation]\ntitle = \"a \\\"quoted\\\" \\\\ title,\\nµ\"\n"
         "[[bonds]]\nfailure = \"unbreakable\"\nnormal_stiffness = 0.1234567890123456789e15\n";
     std::vector<std::string> inputs = {example_of_docs(0), custom_input, custom_input + rod + odd, brazilian_input};
+    const std::string strengths = "tensile_strength = 1e8\ncohesion = 2e8\n";
+    inputs.push_back(custom_input + std::string("\n[[bonds]]\nlaw = \"parallel\"\n") + strengths);
+    inputs.push_back(custom_input + std::string("\n[[bonds]]\nlaw = \"point\"\nsoftening = \"brittle\"\n") + strengths);
     inputs.push_back(replaced(custom_input,
                               "side = \"0.6 mm\"\nthickness = \"1.3 mm\"\nregion = { shape = \"box\", size = [\"5 "
                               "mm\", \"10 mm\", \"2 mm\"] }",

@@ -154,6 +154,8 @@ const Wrong wrong_values[] = {
      "poisson_ratio = 0.26\n[[bonds]]\nelasticity = \"solid\"\nfailure = \"unbreakable\"\n",
      "error: FILE:10: bonds[0].elasticity = \"solid\": \"solid\" with shear_ratio = \"auto\" needs poisson_ratio < "
      "1/4; that of \"sic\" is 0.26\n"},
+    {B, "friction = 0.3", "law = \"parallel\"\nsoftening = \"bilinear\"",
+     "error: FILE:22: bonds[0].softening = \"bilinear\": \"bilinear\" needs law = \"interface\", not \"parallel\"\n"},
     {B, "side =", "dilation_radius = \"0.3 mm\"\nside =",
      "error: FILE:13: parts[0].dilation_radius = \"0.3 mm\": must be <= 0.000173205 m, a third of the inradius of the "
      "prism (side 0.0006 m, thickness 0.005 m)\n"},

@@ -93,6 +93,18 @@ TEST_CASE("a whole run leaves a whole folder", "[output][results]")
     for (const auto& entry : fs::recursive_directory_iterator(out)) CHECK(entry.path().extension() != ".tmp");
 }
 
+TEST_CASE("plots that cannot be made cost nothing else", "[output][results]")
+{
+    const sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    ResultFolder results(folder / "out", false);
+    results.begin(sample::facts(), "", "");
+    results.append_history(sample::history_row(1));
+    fs::remove(folder / "out" / "plots");
+    CHECK_THROWS_AS(results.finish("{}", w.model, w.state, w.fields), PlotError);
+    CHECK(read_file(folder / "out" / "summary.json") == "{}");
+}
+
 TEST_CASE("history.csv gives every number back", "[output][history]")
 {
     const sample::TemporaryFolder folder;
