@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
 
 namespace grainfrac {
 
@@ -145,10 +145,27 @@ int BondTable::entry_of(const BondRule& rule) const
     return entry_[static_cast<std::size_t>(&rule - rules_.data())];
 }
 
+namespace {
+
+/// Restitution of a linear spring and dashpot that cannot pull: the contact ends when the force, not the overlap, is
+/// zero (Schwager and Poschel 2007, Granular Matter 9, 465).
+double restitution_of(double zeta)
+{
+    const double root = std::sqrt(1.0 - zeta * zeta);
+    const double angle = std::atan2(2.0 * zeta * root, 2.0 * zeta * zeta - 1.0);
+    return std::exp(-zeta / root * angle);
+}
+
+}  // namespace
+
 double damping_ratio_of(double restitution)
 {
-    const double l = std::log(restitution);
-    return -l / std::sqrt(std::numbers::pi * std::numbers::pi + l * l);
+    double low = 0.0, high = 1.0 - 1e-12;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        (restitution_of(middle) > restitution ? low : high) = middle;
+    }
+    return restitution >= 1.0 ? 0.0 : 0.5 * (low + high);
 }
 
 void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model& model)

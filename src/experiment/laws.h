@@ -33,7 +33,7 @@ private:
 /// contact_laws and contact_law_of. `spacing`: mean grain spacing of each group, 0 for walls [m].
 void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model& model);
 
-/// Viscous ratio that gives the restitution e: -ln e / sqrt(pi^2 + ln^2 e) [-].
+/// Viscous ratio zeta < 1 that gives a restitution when the contact cannot pull; 1 for what no such ratio reaches [-].
 double damping_ratio_of(double restitution);
 
 /// Stiffness k_n h and ratio k_s/k_n that make an assembly of modulus E and Poisson ratio nu (rigid-body-spring network;

@@ -83,6 +83,17 @@ void write_file(const std::filesystem::path& path, std::string_view content)
     commit_file(path);
 }
 
+void reserve_room(const std::filesystem::path& path, std::size_t bytes)
+{
+    int error = 0;
+    {
+        const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+        error = file.get() < 0 ? errno : ::posix_fallocate(file.get(), 0, static_cast<off_t>(bytes));
+    }
+    ::unlink(path.c_str());
+    if (error != 0) fail(path, "write", error);
+}
+
 void commit_file(const std::filesystem::path& path)
 {
     const std::filesystem::path temporary = aside(path);

@@ -2,6 +2,7 @@
 // Files that are either whole or not there: written aside, forced to disk, renamed.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,6 +15,10 @@ std::filesystem::path aside(const std::filesystem::path& path);
 /// Write `content` aside, fsync, rename to `path`, fsync the folder. On failure the file aside is removed, an older
 /// `path` is kept, and std::runtime_error names the file and the reason.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// Throws std::runtime_error unless a file of so many bytes can be written at `path`: for libraries that do not recover
+/// from a full disk. The room is free again afterwards.
+void reserve_room(const std::filesystem::path& path, std::size_t bytes);
 
 /// The second half, for a file that some library wrote to aside(path).
 void commit_file(const std::filesystem::path& path);

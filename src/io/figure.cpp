@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <plplot/plplot.h>
 #include <stdexcept>
 #include <unistd.h>
@@ -44,17 +43,6 @@ constexpr std::array<Rgb, 13> inks{{{255, 255, 255},
 int give_up(const char* message)
 {
     throw std::runtime_error(std::string("PLplot: ") + message);
-}
-
-bool has_room(const std::filesystem::path& file)
-{
-    constexpr std::size_t needed = 65536;  // [B] more than PLplot's list of drivers, less than most pictures
-    std::ofstream out(file, std::ios::binary);
-    out << std::string(needed, ' ');
-    out.close();
-    std::error_code ignored;
-    std::filesystem::remove(file, ignored);
-    return out.good();
 }
 
 std::filesystem::path scratch_file()
@@ -94,8 +82,9 @@ void draw_to(const std::filesystem::path& path, const char* device, const std::s
 {
     const std::string temporary = aside(path).string();
     // What PLplot cannot cope with, it answers by asking on the terminal or by a crash: look first.
-    if (!has_room(temporary)) throw std::runtime_error(path.string() + ": cannot write");
-    if (!has_room(scratch_file())) throw std::runtime_error(path.string() + ": PLplot needs room for temporary files");
+    constexpr std::size_t room = 65536;  // [B] more than PLplot's list of drivers, which it puts into a temporary file
+    reserve_room(temporary, room);
+    reserve_room(scratch_file(), room);
     if (!has_device(device))
         throw std::runtime_error(fmt::format("{}: PLplot has no driver {}", path.string(), device));
     const auto discard = [&] {

@@ -28,9 +28,15 @@ std::string hdf5_reason()
     throw std::runtime_error(where + ": cannot " + what + ": " + hdf5_reason());
 }
 
-void be_silent()
+/// Once, before anything else is asked of HDF5.
+void set_up()
 {
-    static const bool done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+    static const bool done = [] {
+        // Its clean-up at the end of the program crashes on a file that met a full disk; ours are closed by their
+        // owners.
+        H5dont_atexit();
+        return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+    }();
     (void)done;
 }
 
@@ -113,7 +119,7 @@ void Hdf5Growing::flush()
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path)
 {
-    be_silent();
+    set_up();
     Hdf5File file;
     file.path_ = path;
     const Hdf5Id access = newest_format();
@@ -124,7 +130,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path)
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path, Access access)
 {
-    be_silent();
+    set_up();
     Hdf5File file;
     file.path_ = path;
     const Hdf5Id properties = newest_format();

@@ -2,7 +2,6 @@
 #include "model/shapes.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -35,7 +34,7 @@ int close_shape(Shapes& s, double radius, double point_area, double bounding_rad
 int add_shape(Shapes& shapes, const Polyhedron& core, double radius)
 {
     open_lists(shapes);
-    double reach = 0.0, smallest_face = std::numeric_limits<double>::max();
+    double reach = 0.0, faces_area = 0.0;
     for (const Vec3& v : core.vertices) reach = std::max(reach, norm(v));
     std::set<std::pair<int, int>> edges;
     for (std::size_t f = 0; f < core.faces.size(); ++f) {
@@ -48,14 +47,15 @@ int add_shape(Shapes& shapes, const Polyhedron& core, double radius)
         shapes.face_offsets.host().push_back(core.planes[f].offset);
         shapes.loops.host().insert(shapes.loops.host().end(), loop.begin(), loop.end());
         shapes.loop_begin.host().push_back(shapes.loops.size());
-        smallest_face = std::min(smallest_face, norm(area_vector(face_polygon(core, static_cast<int>(f)))));
+        faces_area += norm(area_vector(face_polygon(core, static_cast<int>(f))));
         for (std::size_t k = 0; k < loop.size(); ++k) edges.insert(std::minmax(loop[k], loop[(k + 1) % loop.size()]));
     }
     for (const auto& [from, to] : edges) shapes.edges.host().push_back({from, to});
     auto& vertices = shapes.vertices.host();
     vertices.insert(vertices.end(), core.vertices.begin(), core.vertices.end());
-    // A quarter of the smaller face: the reference area of a point contact.
-    return close_shape(shapes, radius, core.faces.empty() ? 0.0 : 0.25 * smallest_face, reach + radius);
+    // A quarter of the mean face: the smallest one of a cut grain may be next to nothing, and contacts with it too soft.
+    const double mean_face = core.faces.empty() ? 0.0 : faces_area / static_cast<double>(core.faces.size());
+    return close_shape(shapes, radius, 0.25 * mean_face, reach + radius);
 }
 
 int add_sphere_shape(Shapes& shapes, double radius)

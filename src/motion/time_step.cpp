@@ -91,8 +91,8 @@ void add_parallels(const State& state, Stiffness& s)
     }
 }
 
-/// Active contacts with their manifold. A pair with a wall counts as in contact at its point stiffness, or its present
-/// manifold's, since platens touch first and are the stiffest.
+/// Active contacts with their manifold. A grain near a wall counts as touching it with a whole face: platens touch
+/// first and are the stiffest.
 void add_contacts(const Model& model, const State& state, Stiffness& s)
 {
     const Contacts& c = state.contacts;
@@ -103,7 +103,7 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         const ContactPoint p = c.point[i];
         const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
         if (p.overlap_volume <= 0.0 && !with_wall) continue;
-        double area = p.area;
+        double area = with_wall ? std::fmax(p.area, 4.0 * model.shapes.point_area[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]) : p.area;
         Vec3 position = p.position, normal = p.normal;
         if (p.overlap_volume <= 0.0) {
             const ShapesView shapes = view(model.shapes, Device::cpu);
@@ -113,7 +113,6 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
             if (near.distance <= 0.0) continue;
             position = 0.5 * (near.a + near.b);
             normal = (near.b - near.a) * (1.0 / near.distance);
-            area = std::fmax(model.shapes.point_area[x.shape], model.shapes.point_area[y.shape]);
         }
         const double k = law.area_stiffness * c.stiffness_scale[i] * area * law.unload_factor;
         for (const int body : bodies) {

@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 #include "io/bond_faces.h"
 #include "io/figure.h"
+#include "io/hdf5_results.h"
 #include "io/history_csv.h"
 #include "io/plots.h"
 #include "io/results.h"
@@ -201,8 +202,10 @@ TEST_CASE("a full disk is an error that names the file", "[output][results]")
     HistoryCsv csv(folder / "history.csv", sample::facts());
     ResultFolder results(folder / "out", false);
     results.begin(sample::facts(), "", "");
+    Hdf5Results table(folder / "table.h5", sample::facts());
     {
         const SmallDisk disk(100);
+        CHECK_THROWS_WITH(table.append_history(sample::history_row(1)), Catch::Contains("table.h5"));
         CHECK_THROWS_WITH(write_file(folder / "a.txt", std::string(1000, 'x')), Catch::Contains("a.txt"));
         CHECK_THROWS_WITH(csv.append(sample::history_row(1)), Catch::Contains("history.csv"));
         CHECK_THROWS_WITH(results.write_checkpoint(w.model, w.state), Catch::Contains("step_300.h5"));
