@@ -85,8 +85,8 @@ struct InterfaceForces {
         const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
         const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
         const double c_n = normal_damping[i], c_s = shear_damping[i];
-        const Vec3 va = body.velocity[a[i]], wa = body.angular_velocity[a[i]];
-        const Vec3 vb = body.velocity[b[i]], wb = body.angular_velocity[b[i]];
+        const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
+        const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
 
         // Work of dashpots, trapezoidal in time: half of each force with the velocity before it, half with the one after.
         double viscous = 0.5 * power_on_bodies(i);
@@ -101,9 +101,10 @@ struct InterfaceForces {
             const Vec3 arm_a = f.rotation_a * point_a[q], arm_b = f.rotation_b * point_b[q];
             const Vec3 jump = f.between + arm_b - arm_a;
             const double d_n = dot(jump, f.n), d_1 = dot(jump, f.t1), d_2 = dot(jump, f.t2);
-            InterfacePointState p{point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
+            InterfacePointState p;
+            if (point_onset[q] > 0.0) p = {point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
             const double onset_before = p.onset;
-            const Vec3 rate = vb + cross(wb, arm_b) - va - cross(wa, arm_a);
+            const Vec3 rate = relative_velocity + cross(wb, arm_b) - cross(wa, arm_a);
             const double rate_n = dot(rate, f.n);
             const InterfaceJump before{d_n - dt * rate_n, d_1 - dt * dot(rate, f.t1), d_2 - dt * dot(rate, f.t2)};
             const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i], may_fail && !by_face,
@@ -160,7 +161,7 @@ struct InterfaceForces {
         friction_work[i] += slid;
         shear_share[i] += sheared;
         damage[i] = damaged / area[i];
-        if (all_points_broken(i)) {
+        if (damaged > 0.0 && all_points_broken(i)) {
             damage[i] = 1.0;
             if (failure_time[i] < 0.0) failure_time[i] = time;
             const double slip_limit = retirement_slip * diameter[i];

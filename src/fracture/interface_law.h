@@ -63,6 +63,18 @@ struct InterfaceLaw {
     FailureUnit failure;
     MixedMode mixed_mode;
 
+    /// True if the traction (sigma tension positive, tau^2) lies inside the onset surface: onset_factor() < 1 without a
+    /// root or a division, since nearly every point of every step asks.
+    GF_FN bool below_onset(double sigma, double tau2, double strength) const
+    {
+        const double c = cohesion * strength, sigma_c = tensile_strength * strength;
+        if (onset == OnsetSurface::quadratic && sigma >= 0.0) {
+            return sigma * sigma * c * c + tau2 * sigma_c * sigma_c < sigma_c * sigma_c * c * c;
+        }
+        const double most_shear = c - sigma * friction;
+        return sigma < sigma_c && most_shear > 0.0 && tau2 < most_shear * most_shear;
+    }
+
     /// phi >= 1: the effective traction (sigma tension positive, tau >= 0) lies on or beyond the onset surface scaled by
     /// `strength`.
     GF_FN double onset_factor(double sigma, double tau, double strength) const
@@ -98,9 +110,18 @@ struct InterfaceLaw {
                                        double toughness, bool may_start, bool fail, InterfacePointState& p) const
     {
         const double d_n = d.n, d_1 = d.s1, d_2 = d.s2;
+        const double slid2 = d_1 * d_1 + d_2 * d_2;
+        if (p.onset == 0.0 && !fail && (!may_start || below_onset(k_n * d_n, k_s * k_s * slid2, strength))) {
+            InterfaceResponse whole;
+            whole.normal = k_n * d_n;
+            whole.shear1 = k_s * d_1;
+            whole.shear2 = k_s * d_2;
+            whole.stored = 0.5 * (k_n * d_n * d_n + k_s * slid2);
+            return whole;
+        }
         const double opening = d_n > 0.0 ? d_n : 0.0;
         const double closing = d_n < 0.0 ? -d_n : 0.0;
-        const double shear_energy = k_s * (d_1 * d_1 + d_2 * d_2);
+        const double shear_energy = k_s * slid2;
         const double Y = k_n * opening * opening + shear_energy;
         const double lambda = std::sqrt(Y);
         InterfaceResponse r;
@@ -125,7 +146,6 @@ struct InterfaceLaw {
         }
 
         // friction: elastic slip s = d_t - d_sl, returned to the Coulomb cap
-        const double b_1 = before.s1 - p.slip1, b_2 = before.s2 - p.slip2;  // elastic slip before
         double s_1 = d_1 - p.slip1, s_2 = d_2 - p.slip2;
         if (p.onset > 0.0) {
             const double cap = residual_friction * k_n * closing / k_s;  // as a slip [m]
@@ -137,7 +157,14 @@ struct InterfaceLaw {
                 s_2 -= slid_2;
                 p.slip1 = d_1 - s_1;
                 p.slip2 = d_2 - s_2;
-                // mean friction over the step times the slip; never negative, since friction follows the slip
+                // mean friction over the step times the slip; the elastic slip before cannot have been beyond its own cap
+                double b_1 = before.s1 - (p.slip1 - slid_1), b_2 = before.s2 - (p.slip2 - slid_2);
+                const double cap_before = before.n < 0.0 ? -residual_friction * k_n * before.n / k_s : 0.0;
+                const double length_before = std::sqrt(b_1 * b_1 + b_2 * b_2);
+                if (length_before > cap_before) {
+                    b_1 *= cap_before / length_before;
+                    b_2 *= cap_before / length_before;
+                }
                 r.friction_work = new_damage * k_s * std::fmax(0.0, 0.5 * ((b_1 + s_1) * slid_1 + (b_2 + s_2) * slid_2));
             }
         }

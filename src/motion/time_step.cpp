@@ -103,21 +103,22 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         const ContactPoint p = c.point[i];
         const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
         if (p.overlap_volume <= 0.0 && !with_wall) continue;
-        double area = with_wall ? std::fmax(p.area, 4.0 * model.shapes.point_area[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]) : p.area;
-        Vec3 position = p.position, normal = p.normal;
-        if (p.overlap_volume <= 0.0) {
+        double area = p.area;
+        Vec3 arm[2] = {p.position - b.position[bodies[0]], p.position - b.position[bodies[1]]}, normal = p.normal;
+        if (with_wall) area = std::fmax(area, 4.0 * model.shapes.point_area[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
+        if (p.overlap_volume <= 0.0) {  // where it will touch is not known yet: through the centre, square to the gap
             const ShapesView shapes = view(model.shapes, Device::cpu);
             const ContactBody x{shapes, b.shape[bodies[0]], b.position[bodies[0]], b.orientation[bodies[0]]};
             const ContactBody y{shapes, b.shape[bodies[1]], b.position[bodies[1]], b.orientation[bodies[1]]};
             const ClosestPoints near = closest_points(x.core(), y.core(), y.position - x.position);
-            if (near.distance <= 0.0) continue;
-            position = 0.5 * (near.a + near.b);
+            if (near.distance <= 0.0 || near.distance - x.radius() - y.radius() > model.skin) continue;
             normal = (near.b - near.a) * (1.0 / near.distance);
+            arm[0] = arm[1] = Vec3{};
         }
         const double k = law.area_stiffness * c.stiffness_scale[i] * area * law.unload_factor;
-        for (const int body : bodies) {
-            if (b.inverse_mass[body] > 0.0) {
-                s.add(body, position - b.position[body], normal, k, law.shear_ratio * k, with_wall ? "contact with a wall" : "contact");
+        for (const int side : {0, 1}) {
+            if (b.inverse_mass[bodies[side]] > 0.0) {
+                s.add(bodies[side], arm[side], normal, k, law.shear_ratio * k, with_wall ? "contact with a wall" : "contact");
             }
         }
     }

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program as its user meets it: commands, exit codes, files, the example in short.
+#include <nlohmann/json.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string program = GF_PROGRAM;
+const fs::path source = GF_SOURCE_DIR;
+const std::string example = (source / "examples/brazilian/brazilian.toml").string();
+/// Coarse grains, fast platens: two seconds instead of twenty.
+const std::string shorter =
+    " --set parts.disc.side='\"1.2 mm\"' --set test.platen_speed='\"200 mm/s\"' --set test.contact_half_width='\"1.3 mm\"' --set bonds[0].tensile_strength='\"60 MPa\"'"
+    " --set bonds[0].cohesion='\"150 MPa\"'";
+
+struct Outcome {
+    int code = 0;
+    std::string out, err;
+};
+
+std::string text_of(const fs::path& file)
+{
+    std::ifstream in(file);
+    std::ostringstream s;
+    s << in.rdbuf();
+    return s.str();
+}
+
+/// A folder of its own for each case, removed at the end.
+struct Workplace {
+    fs::path folder;
+    Workplace()
+    {
+        std::string name = (fs::temp_directory_path() / "grainfrac_test_XXXXXX").string();
+        REQUIRE(mkdtemp(name.data()) != nullptr);
+        folder = name;
+    }
+    ~Workplace() { fs::remove_all(folder); }
+    Outcome run(const std::string& arguments) const
+    {
+        const std::string command = "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > out.txt 2> err.txt < /dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / "out.txt"), text_of(folder / "err.txt")};
+    }
+    nlohmann::json summary(const std::string& result) const { return nlohmann::json::parse(text_of(folder / result / "summary.json")); }
+};
+
+}  // namespace
+
+TEST_CASE("the example in short: every file is there, the account closes, resolved input and threads give the same bits")
+{
+    const Workplace w;
+    const Outcome first = w.run("run " + example + shorter + " --threads 2 --out a");
+    INFO(first.err);
+    REQUIRE(first.code == 0);
+    for (const char* file : {"input.toml", "resolved.toml", "run.log", "summary.json", "history.csv", "results.h5", "paraview/grains.pvd",
+                             "paraview/bonds.pvd", "paraview/contacts.pvd", "paraview/cracks.pvd", "paraview/walls.pvd", "paraview/view.py",
+                             "plots/load_displacement.svg", "plots/load_displacement.png", "plots/energies.svg", "plots/crack_map.svg"}) {
+        CHECK(fs::exists(w.folder / "a" / file));
+    }
+    const nlohmann::json s = w.summary("a");
+    CHECK(s["exit"]["code"] == 0);
+    CHECK(s["energy"]["relative_error"].get<double>() < 1e-3);
+    CHECK(s["test"]["peak_load_N"].get<double>() > 1000);
+    CHECK(s["fragments"]["number"].get<int>() >= 1);
+    CHECK(text_of(w.folder / "a/input.toml") == text_of(example));
+
+    REQUIRE(w.run("a/resolved.toml --threads 1 --out b -q").code == 0);
+    CHECK(w.summary("b")["state_hash"] == s["state_hash"]);
+    CHECK(w.summary("b")["input_hash"] == s["input_hash"]);
+
+    const Outcome info = w.run("info a");
+    CHECK(info.code == 0);
+    CHECK(info.out.find("peak_load_N") != std::string::npos);
+}
+
+TEST_CASE("wrong use: exit 2, a message, nothing written")
+{
+    const Workplace w;
+    const auto refused = [&](const std::string& arguments, const std::string& said) {
+        const Outcome o = w.run(arguments);
+        INFO(arguments << "\n" << o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(said) != std::string::npos);
+        CHECK_FALSE(fs::exists(w.folder / "brazilian.out"));
+    };
+    refused("no_such.toml", "no_such.toml");
+    refused("run", "FILE");
+    refused(example + " --device gpu", "--device");
+    refused(example + " --set parts.disc.side='\"-1 mm\"'", "parts[0].side");
+    refused(example + " --set parts.disc.sides=1", "did you mean \"side\"");
+    refused(example + " --set parts.disc.side='\"20 mm\"'", "parts[0]");                            // no cell fits
+    refused(example + " --set bonds[0].fracture_energy_I='\"1 J/m^2\"'", "tensile_strength^2/(2 k_n)");  // only building can tell
+    refused(example + " --set control.time_step='\"1 ms\"'", "stability limit");
+    refused("info no_such_folder", "no_such_folder");
+}
+
+TEST_CASE("an existing result folder is refused and left alone, --force replaces it")
+{
+    const Workplace w;
+    fs::create_directory(w.folder / "brazilian.out");
+    std::ofstream(w.folder / "brazilian.out/thesis.txt") << "three years of work";
+    const Outcome o = w.run(example + shorter);
+    CHECK(o.code == 2);
+    CHECK(o.err.find("brazilian.out") != std::string::npos);
+    CHECK(w.run(example + shorter + " --force").code == 2);  // no result folder of ours
+    CHECK(text_of(w.folder / "brazilian.out/thesis.txt") == "three years of work");
+    fs::remove_all(w.folder / "brazilian.out");
+    const std::string quick = " --set test.stop.time='\"2 us\"' -q";
+    CHECK(w.run(example + shorter + quick).code == 0);
+    CHECK(w.run(example + shorter + quick).code == 2);
+    CHECK(w.run(example + shorter + quick + " --force").code == 0);
+}
+
+TEST_CASE("an unwritable place is refused")
+{
+    const Workplace w;
+    std::ofstream(w.folder / "file") << "";
+    CHECK(w.run(example + shorter + " --out file/results").code == 2);
+    CHECK(w.run(example + shorter + " --out /proc/results").code == 2);
+}
+
+TEST_CASE("a device that is not there is an error, never a fall-back")
+{
+    const Workplace w;
+    const Outcome info = w.run("info");
+    CHECK(info.code == 0);
+    if (info.out.find("device(s)") != std::string::npos) return;  // this machine has one
+    const Outcome o = w.run(example + shorter + " --device cuda");
+    CHECK(o.code == 1);
+    CHECK(o.err.find("device cuda") != std::string::npos);
+    CHECK_FALSE(fs::exists(w.folder / "brazilian.out"));
+}
+
+TEST_CASE("generate writes a microstructure that generator = \"file\" reads back to the same result")
+{
+    const Workplace w;
+    REQUIRE(w.run("generate " + example + shorter + " --out disc.json").code == 0);
+    CHECK(w.run("generate " + example + shorter + " --out disc.json").code == 2);
+    std::ifstream in(example);
+    std::ofstream out(w.folder / "from_file.toml");
+    for (std::string line; std::getline(in, line);) {
+        if (line.rfind("generator", 0) == 0) out << "generator = \"file\"\nfile = \"disc.json\"\n";
+        else if (line.rfind("side", 0) != 0 && line.rfind("thickness", 0) != 0 && line.rfind("at_region", 0) != 0) out << line << "\n";
+    }
+    out.close();
+    std::string no_side = shorter;
+    no_side.erase(0, no_side.find("--set test"));
+    const Outcome o = w.run("from_file.toml " + no_side + " --set test.stop.time='\"20 us\"' -q --no-report");
+    INFO(o.err);
+    REQUIRE(o.code == 0);
+    REQUIRE(w.run(example + shorter + " --set test.stop.time='\"20 us\"' -q --no-report").code == 0);
+    CHECK(w.summary("from_file.out")["counts"] == w.summary("brazilian.out")["counts"]);
+    // positions pass through decimal text and frames: equal to round-off
+    CHECK(w.summary("from_file.out")["test"]["peak_load_N"].get<double>() == Approx(w.summary("brazilian.out")["test"]["peak_load_N"].get<double>()).epsilon(1e-9));
+}
+
+TEST_CASE("check reports without running")
+{
+    const Workplace w;
+    const Outcome o = w.run("check " + example);
+    CHECK(o.code == 0);
+    for (const char* said : {"grains 187", "time step", "memory", "run time", "[materials.sic]"}) CHECK(o.out.find(said) != std::string::npos);
+    CHECK_FALSE(fs::exists(w.folder / "brazilian.out"));
+}
+
+TEST_CASE("SIGTERM and SIGINT stop the run after a checkpoint")
+{
+    for (const int signal : {SIGTERM, SIGINT}) {
+        const Workplace w;
+        std::fflush(stdout);  // or the child prints it again
+        const pid_t child = fork();
+        if (child == 0) {
+            if (chdir(w.folder.c_str()) != 0) _exit(99);
+            std::freopen("out.txt", "w", stdout);
+            std::freopen("err.txt", "w", stderr);
+            execl(program.c_str(), program.c_str(), example.c_str(), "--threads", "1", static_cast<char*>(nullptr));
+            _exit(98);
+        }
+        for (int i = 0; i < 400 && !fs::exists(w.folder / "brazilian.out/paraview/grains.pvd"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        REQUIRE(kill(child, signal) == 0);
+        int status = 0;
+        REQUIRE(waitpid(child, &status, 0) == child);
+        REQUIRE(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 128 + signal);
+        CHECK_FALSE(fs::is_empty(w.folder / "brazilian.out/checkpoint"));
+        CHECK(w.summary("brazilian.out")["exit"]["code"] == 128 + signal);
+    }
+}
+
+TEST_CASE("slow: halving the platen speed changes the peak load of the example by less than 2 %")
+{
+    const Workplace w;
+    REQUIRE(w.run(example + " --out fast -q --no-report --threads 2").code == 0);
+    REQUIRE(w.run(example + " --out slow -q --no-report --threads 2 --set test.platen_speed='\"20 mm/s\"'").code == 0);
+    const double fast = w.summary("fast")["test"]["peak_load_N"], slow = w.summary("slow")["test"]["peak_load_N"];
+    WARN("peak load " << fast << " N at 40 mm/s, " << slow << " N at 20 mm/s: " << 100 * (fast / slow - 1) << " %");
+    CHECK(fast == Approx(slow).epsilon(0.02));
+    CHECK(w.summary("fast")["quasi_static"]["kinetic_over_elastic_to_peak"].get<double>() < 1e-2);
+    CHECK(w.summary("fast")["energy"]["largest_relative_error"].get<double>() < 1e-3);
+}
