@@ -14,9 +14,6 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     list(REMOVE_ITEM GF_HOST_FLAGS -fno-trapping-math)  # clang 14 has no such default; the flag changes nothing there
 endif()
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    list(APPEND GF_WARNINGS -Wno-restrict)  # GCC bug 105651: false reports on std::string operator+ with -O3
-endif()
 target_compile_options(gf_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${GF_HOST_FLAGS};${GF_WARNINGS}>)
 
 if(GF_SANITIZE)

@@ -46,18 +46,22 @@ int check_command(const Options& o)
     fmt::print("{}", to_toml(c));
     int grains = 0;
     for (int i = 0; i < b.state.bodies.size(); ++i) grains += b.state.bodies.inverse_mass[i] > 0.0 ? 1 : 0;
-    fmt::print("\n# grains {}, wall bodies {}, interfaces {} with {} points, parallel bonds {}, candidate contacts {}\n", grains,
-               b.state.bodies.size() - grains, b.state.interfaces.size(), b.state.points.size(), b.state.parallels.size(), b.state.contacts.size());
-    fmt::print("# mean grain spacing {:.4g} m, mass {:.6g} kg\n", b.model.nominal_length, total_momentum(b.model, b.state).mass);
+    fmt::print(
+        "\n# grains {}, wall bodies {}, interfaces {} with {} points, parallel bonds {}, candidate contacts {}\n",
+        grains, b.state.bodies.size() - grains, b.state.interfaces.size(), b.state.points.size(),
+        b.state.parallels.size(), b.state.contacts.size());
+    fmt::print("# mean grain spacing {:.4g} m, mass {:.6g} kg\n", b.model.nominal_length,
+               total_momentum(b.model, b.state).mass);
     fmt::print("# time step {:.4g} s; stability limit {:.4g} s, set by {}\n", s.dt, s.critical, s.limiter);
     if (b.experiment.quasi_static_speed > 0.0) {
-        fmt::print("# wave speed {:.4g} m/s; quasi-static platen speed <= {:.3g} m/s\n", b.experiment.wave_speed, b.experiment.quasi_static_speed);
+        fmt::print("# wave speed {:.4g} m/s; quasi-static platen speed <= {:.3g} m/s\n", b.experiment.wave_speed,
+                   b.experiment.quasi_static_speed);
     }
     fmt::print("# memory {:.0f} MB\n", static_cast<double>(peak_memory()) / 1e6);
     if (b.experiment.expected_duration > 0.0) {
         const double steps = b.experiment.expected_duration / s.dt;
-        fmt::print("# about {:.0f} steps over {:.3g} s, about {:.0f} s of run time on {}\n", steps, b.experiment.expected_duration,
-                   steps * seconds_per_step(b, s.dt), to_string(b.model.device));
+        fmt::print("# about {:.0f} steps over {:.3g} s, about {:.0f} s of run time on {}\n", steps,
+                   b.experiment.expected_duration, steps * seconds_per_step(b, s.dt), to_string(b.model.device));
     }
     return exit_code::done;
 }

@@ -12,7 +12,8 @@ namespace grainfrac {
 int generate_command(const Options& o)
 {
     const Case c = load_case(o);
-    const std::filesystem::path out = o.out.empty() ? std::filesystem::path(o.file).stem().string() + ".microstructure.json" : o.out;
+    const std::filesystem::path out =
+        o.out.empty() ? std::filesystem::path(o.file).stem().string() + ".microstructure.json" : o.out;
     if (std::filesystem::exists(out) && !o.force) {
         throw InputError("--out", fmt::format("\"{}\" exists; give another name or --force", out.string()));
     }

@@ -30,25 +30,30 @@ void print_build()
         return;
     }
     const std::vector<DeviceInfo> devices = cuda_devices();
-    fmt::print("  CUDA      yes, {}\n", devices.empty() ? "no device found on this machine" : fmt::format("{} device(s)", devices.size()));
+    fmt::print("  CUDA      yes, {}\n",
+               devices.empty() ? "no device found on this machine" : fmt::format("{} device(s)", devices.size()));
     for (const DeviceInfo& d : devices) {
-        fmt::print("            {}: {:.1f} GiB, compute capability {}.{}\n", d.name, static_cast<double>(d.memory) / 1073741824.0,
-                   d.compute_capability / 10, d.compute_capability % 10);
+        fmt::print("            {}: {:.1f} GiB, compute capability {}.{}\n", d.name,
+                   static_cast<double>(d.memory) / 1073741824.0, d.compute_capability / 10, d.compute_capability % 10);
     }
 }
 
 int print_folder(const std::filesystem::path& folder)
 {
-    if (!std::filesystem::is_directory(folder)) throw InputError("DIR", fmt::format("\"{}\" is no folder", folder.string()));
+    if (!std::filesystem::is_directory(folder))
+        throw InputError("DIR", fmt::format("\"{}\" is no folder", folder.string()));
     std::ifstream in(folder / "summary.json");
     if (in) {
         const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
-        if (summary.is_discarded()) throw std::runtime_error(fmt::format("\"{}\" is damaged", (folder / "summary.json").string()));
+        if (summary.is_discarded())
+            throw std::runtime_error(fmt::format("\"{}\" is damaged", (folder / "summary.json").string()));
         fmt::print("{}\n", summary.dump(2));
     } else if (std::filesystem::exists(folder / "resolved.toml")) {
         fmt::print("{}: a run that has not ended (no summary.json)\n", folder.string());
     } else {
-        throw InputError("DIR", fmt::format("\"{}\" holds no results of grainfrac (neither summary.json nor resolved.toml)", folder.string()));
+        throw InputError("DIR",
+                         fmt::format("\"{}\" holds no results of grainfrac (neither summary.json nor resolved.toml)",
+                                     folder.string()));
     }
     return exit_code::done;
 }

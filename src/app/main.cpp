@@ -26,9 +26,13 @@ using namespace grainfrac;
 void add_case_options(CLI::App& command, Options& o)
 {
     command.add_option("FILE", o.file, "input file (TOML)")->required();
-    command.add_option("--set", o.overrides, "override a key: key.path=value, parsed as TOML; any number")->allow_extra_args(false);
-    command.add_option("--device", o.device, "auto, cpu or cuda")->check(CLI::IsMember({"auto", "cpu", "cuda"}))->capture_default_str();
-    command.add_option("--threads", o.threads, "host threads; results do not depend on it (default: all cores)")->check(CLI::Range(1, 4096));
+    command.add_option("--set", o.overrides, "override a key: key.path=value, parsed as TOML; any number")
+        ->allow_extra_args(false);
+    command.add_option("--device", o.device, "auto, cpu or cuda")
+        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+        ->capture_default_str();
+    command.add_option("--threads", o.threads, "host threads; results do not depend on it (default: all cores)")
+        ->check(CLI::Range(1, 4096));
     command.add_flag("-q,--quiet", o.quiet, "errors only");
     command.add_flag("-v,--verbose", o.verbose, "say more");
 }
@@ -38,7 +42,8 @@ std::vector<std::string> with_command(int argc, char** argv)
 {
     std::vector<std::string> args(argv + 1, argv + argc);
     static const std::vector<std::string> commands = {"run", "generate", "check", "info"};
-    if (!args.empty() && args.front().front() != '-' && std::find(commands.begin(), commands.end(), args.front()) == commands.end()) {
+    if (!args.empty() && args.front().front() != '-' &&
+        std::find(commands.begin(), commands.end(), args.front()) == commands.end()) {
         args.insert(args.begin(), "run");
     }
     std::reverse(args.begin(), args.end());  // the order that CLI11's vector parse takes
@@ -71,9 +76,10 @@ int guarded(const Options& o, const std::function<int()>& command)
 
 int main(int argc, char** argv)
 {
-    CLI::App app{"Fracture of brittle polycrystals, fibre composites and granular solids.\n"
-                 "`grainfrac FILE.toml` is short for `grainfrac run FILE.toml`.",
-                 "grainfrac"};
+    CLI::App app{
+        "Fracture of brittle polycrystals, fibre composites and granular solids.\n"
+        "`grainfrac FILE.toml` is short for `grainfrac run FILE.toml`.",
+        "grainfrac"};
     app.footer("Example: grainfrac examples/brazilian/brazilian.toml --set test.platen_speed='\"10 mm/s\"'");
     app.set_version_flag("--version", std::string("grainfrac ") + GRAINFRAC_VERSION);
     app.require_subcommand(1);
@@ -92,7 +98,8 @@ int main(int argc, char** argv)
     generate->add_flag("--force", o.force, "replace an existing file");
     generate->footer("Example: grainfrac generate microstructures/disc_187.toml");
 
-    auto* check = app.add_subcommand("check", "parse, validate and build; report counts, time step, memory, run time; no run");
+    auto* check =
+        app.add_subcommand("check", "parse, validate and build; report counts, time step, memory, run time; no run");
     add_case_options(*check, o);
     check->footer("Example: grainfrac check disc.toml");
 

@@ -20,9 +20,9 @@ struct Options {
 
 namespace exit_code {
 inline constexpr int done = 0;
-inline constexpr int failure = 1;      ///< outside the input: I/O, memory, device
+inline constexpr int failure = 1;  ///< outside the input: I/O, memory, device
 inline constexpr int wrong_input = 2;
-inline constexpr int unstable = 3;     ///< last good state kept
+inline constexpr int unstable = 3;       ///< last good state kept
 inline constexpr int interrupted = 130;  ///< SIGINT, after a checkpoint
 inline constexpr int terminated = 143;   ///< SIGTERM, after a checkpoint
 }  // namespace exit_code

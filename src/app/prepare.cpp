@@ -51,7 +51,8 @@ ChosenStep choose_time_step(const Case& c, const Model& model, const State& stat
             if (state.bodies.inverse_mass[i] == 0.0) continue;
             for (const LinearContact& law : model.contact_laws.host()) {
                 const double area = 4.0 * model.shapes.point_area[state.bodies.shape[i]];
-                largest = std::fmax(largest, law.area_stiffness * law.unload_factor * area * state.bodies.inverse_mass[i]);
+                largest =
+                    std::fmax(largest, law.area_stiffness * law.unload_factor * area * state.bodies.inverse_mass[i]);
             }
         }
         s.limiter = "contact laws (nothing touches yet)";
@@ -59,11 +60,13 @@ ChosenStep choose_time_step(const Case& c, const Model& model, const State& stat
     }
     if (c.control.time_step) {
         if (s.critical > 0.0 && *c.control.time_step > s.critical) {
-            throw InputError("control.time_step", fmt::format("must be <= {:.4g} s, the stability limit ({})", s.critical, s.limiter));
+            throw InputError("control.time_step",
+                             fmt::format("must be <= {:.4g} s, the stability limit ({})", s.critical, s.limiter));
         }
         s.dt = *c.control.time_step;
     } else {
-        if (!(s.critical > 0.0)) throw InputError("control.time_step", "missing; required here, since nothing in the model bounds the step");
+        if (!(s.critical > 0.0))
+            throw InputError("control.time_step", "missing; required here, since nothing in the model bounds the step");
         s.dt = c.control.time_step_safety * s.critical;
     }
     return s;

@@ -22,8 +22,8 @@ Built build_case(const Case& c, Device device);
 /// Step that the run will use: control.time_step, or safety times the bound. Throws InputError if a given step exceeds
 /// the bound or if nothing bounds it.
 struct ChosenStep {
-    double dt = 0.0;         ///< [s]
-    double critical = 0.0;   ///< [s]
+    double dt = 0.0;        ///< [s]
+    double critical = 0.0;  ///< [s]
     std::string limiter;
 };
 ChosenStep choose_time_step(const Case& c, const Model& model, const State& state);

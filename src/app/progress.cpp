@@ -23,7 +23,8 @@ double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::ste
 std::string clock_text(double seconds)
 {
     const auto s = static_cast<long>(seconds + 0.5);
-    return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
+    return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                     : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
 }  // namespace
@@ -37,8 +38,9 @@ std::string Progress::line(const ProgressState& s, double seconds) const
 {
     const double done = std::clamp(s.done, 0.0, 1.0);
     const std::string left = done > 0.01 && seconds > 0.5 ? clock_text(seconds * (1.0 - done) / done) : "-:--";
-    std::string text = fmt::format("{}  step {}  t {:.4g} s  {:.0f} steps/s  {} left  broken {}  fragments {}  load {:.4g} N", s.stage, s.step,
-                                   s.time, seconds > 0.0 ? static_cast<double>(s.step) / seconds : 0.0, left, s.broken, s.fragments, s.load);
+    std::string text = fmt::format(
+        "{}  step {}  t {:.4g} s  {:.0f} steps/s  {} left  broken {}  fragments {}  load {:.4g} N", s.stage, s.step,
+        s.time, seconds > 0.0 ? static_cast<double>(s.step) / seconds : 0.0, left, s.broken, s.fragments, s.load);
     if (!terminal_) return fmt::format("{:3.0f} %  {}", 100.0 * done, text);
     const int full = static_cast<int>(bar_width * done);
     return fmt::format("[{}{}] {:3.0f} %  {}", std::string(static_cast<std::size_t>(full), '#'),
@@ -51,8 +53,10 @@ void Progress::update(const ProgressState& s)
     const auto now = std::chrono::steady_clock::now();
     if (seconds_between(last_, now) < (terminal_ ? terminal_interval : plain_interval)) return;
     last_ = now;
-    if (terminal_) fmt::print(stderr, "\r{}\033[K", line(s, seconds_between(start_, now)));
-    else fmt::print(stderr, "{}\n", line(s, seconds_between(start_, now)));
+    if (terminal_)
+        fmt::print(stderr, "\r{}\033[K", line(s, seconds_between(start_, now)));
+    else
+        fmt::print(stderr, "{}\n", line(s, seconds_between(start_, now)));
     std::fflush(stderr);
 }
 
@@ -60,8 +64,10 @@ void Progress::finish(const ProgressState& s)
 {
     if (quiet_) return;
     const std::string text = line(s, seconds_between(start_, std::chrono::steady_clock::now()));
-    if (terminal_) fmt::print(stderr, "\r{}\033[K\n", text);
-    else fmt::print(stderr, "{}\n", text);
+    if (terminal_)
+        fmt::print(stderr, "\r{}\033[K\n", text);
+    else
+        fmt::print(stderr, "{}\n", text);
 }
 
 }  // namespace grainfrac

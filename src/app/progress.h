@@ -11,10 +11,10 @@ namespace grainfrac {
 struct ProgressState {
     std::string stage;
     std::int64_t step = 0;
-    double time = 0.0;      ///< simulated [s]
-    double done = 0.0;      ///< share of the run that is done, as far as can be told [-]
+    double time = 0.0;  ///< simulated [s]
+    double done = 0.0;  ///< share of the run that is done, as far as can be told [-]
     std::int64_t broken = 0, fragments = 0;
-    double load = 0.0;      ///< [N]
+    double load = 0.0;  ///< [N]
 };
 
 /// On a terminal one line rewritten in place, else a plain line every few seconds; nothing if quiet.

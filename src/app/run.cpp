@@ -41,28 +41,33 @@ void open_log(const std::filesystem::path& folder, const Options& o)
 
 void warn_about_loading(const Case& c, const Built& b, const RunRecord& record)
 {
-    if (c.test.kind == "brazilian" && b.experiment.quasi_static_speed > 0.0 && c.test.platen_speed > b.experiment.quasi_static_speed) {
-        spdlog::warn("platen speed {:.3g} m/s is above the quasi-static guide 0.01 sigma_t/(rho c_0) = {:.3g} m/s", c.test.platen_speed,
-                     b.experiment.quasi_static_speed);
+    if (c.test.kind == "brazilian" && b.experiment.quasi_static_speed > 0.0 &&
+        c.test.platen_speed > b.experiment.quasi_static_speed) {
+        spdlog::warn("platen speed {:.3g} m/s is above the quasi-static guide 0.01 sigma_t/(rho c_0) = {:.3g} m/s",
+                     c.test.platen_speed, b.experiment.quasi_static_speed);
     }
     if (record.kinetic_over_elastic > 1e-2) {
-        spdlog::warn("kinetic energy reached {:.2g} of the elastic energy before the peak (quasi-static: < 0.01); load more slowly",
-                     record.kinetic_over_elastic);
+        spdlog::warn(
+            "kinetic energy reached {:.2g} of the elastic energy before the peak (quasi-static: < 0.01); load more "
+            "slowly",
+            record.kinetic_over_elastic);
     }
 }
 
-void print_outcome(const RunFacts& facts, const Built& b, const RunRecord& record, const Ending& ending, const std::filesystem::path& out)
+void print_outcome(const RunFacts& facts, const Built& b, const RunRecord& record, const Ending& ending,
+                   const std::filesystem::path& out)
 {
     const Ledger e = energy_ledger(b.model, b.state);
-    fmt::print("{}: {} ({} steps, {:.4g} s simulated, {:.1f} s run on {})\n", ending.code == 0 ? "done" : "stopped", ending.reason, b.state.step,
-               b.state.time, record.phases.steps + record.phases.output, facts.device);
+    fmt::print("{}: {} ({} steps, {:.4g} s simulated, {:.1f} s run on {})\n", ending.code == 0 ? "done" : "stopped",
+               ending.reason, b.state.step, b.state.time, record.phases.steps + record.phases.output, facts.device);
     if (record.peak_load > 0.0) {
         fmt::print("peak load {:.5g} N at {:.4g} m", record.peak_load, record.peak_displacement);
         if (record.peak_stress > 0.0) fmt::print(", nominal strength {:.4g} MPa", 1e-6 * record.peak_stress);
         fmt::print("\n");
     }
     const HistoryRow& last = record.rows.back();
-    fmt::print("broken faces: {} in tension, {} in shear; {} fragments\n", last.broken_bonds_tension, last.broken_bonds_shear, last.fragments);
+    fmt::print("broken faces: {} in tension, {} in shear; {} fragments\n", last.broken_bonds_tension,
+               last.broken_bonds_shear, last.fragments);
     fmt::print("energy account: off by {:.1e} of the largest term\n", e.relative_error());
     fmt::print("results: {}\n", out.string());
 }
@@ -87,9 +92,9 @@ int run_command(const Options& o)
     ResultFolder folder(out, o.force);
     folder.begin(facts, input_text, resolved);
     open_log(out, o);
-    spdlog::info("grainfrac {}: {} bodies, {} interfaces with {} points, {} parallel bonds, device {}, {} threads", GRAINFRAC_VERSION,
-                 built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(), built.state.parallels.size(),
-                 to_string(device), threads());
+    spdlog::info("grainfrac {}: {} bodies, {} interfaces with {} points, {} parallel bonds, device {}, {} threads",
+                 GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
+                 built.state.parallels.size(), to_string(device), threads());
     record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 
     watch_signals();
@@ -98,7 +103,8 @@ int run_command(const Options& o)
     if (ending.code == exit_code::unstable) spdlog::error("{}", ending.reason);
     warn_about_loading(c, built, record);
     try {
-        folder.finish(summary_json(facts, c, built, record, ending, fields), built.model, built.state, fields, !o.no_report);
+        folder.finish(summary_json(facts, c, built, record, ending, fields), built.model, built.state, fields,
+                      !o.no_report);
     } catch (const PlotError& e) {
         spdlog::warn("plots: {}", e.what());
     }

@@ -42,9 +42,16 @@ double seconds_since(Clock::time_point t)
 
 class Simulation {
 public:
-    Simulation(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record, SnapshotFields& fields)
-        : case_(c), model_(built.model), state_(built.state), experiment_(built.experiment), folder_(folder), record_(record),
-          fields_(fields), progress_(o.quiet)
+    Simulation(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record,
+               SnapshotFields& fields)
+        : case_(c),
+          model_(built.model),
+          state_(built.state),
+          experiment_(built.experiment),
+          folder_(folder),
+          record_(record),
+          fields_(fields),
+          progress_(o.quiet)
     {
     }
 
@@ -87,8 +94,10 @@ private:
     void choose_intervals()
     {
         const double expected = experiment_.expected_duration;
-        history_ = case_.output.history.value_or(expected > 0.0 ? std::max(expected / automatic_rows, dt_) : 100.0 * dt_);
-        const double count = case_.output.snapshots ? static_cast<double>(*case_.output.snapshots) : automatic_snapshots;
+        history_ =
+            case_.output.history.value_or(expected > 0.0 ? std::max(expected / automatic_rows, dt_) : 100.0 * dt_);
+        const double count =
+            case_.output.snapshots ? static_cast<double>(*case_.output.snapshots) : automatic_snapshots;
         every_ = case_.output.every.value_or(expected > 0.0 ? expected / count : 5000.0 * dt_);
         record_.history_interval = history_;
         record_.snapshot_interval = every_;
@@ -106,7 +115,8 @@ private:
             if (snapshot) write_snapshot();
             if (state_.time + 0.5 * dt_ >= next_history_) {
                 record_row(stage);
-                if (const std::string why = why_unstable(); !why.empty()) return {exit_code::unstable, "unstable: " + why};
+                if (const std::string why = why_unstable(); !why.empty())
+                    return {exit_code::unstable, "unstable: " + why};
                 if (const std::string why = why_ended(stage); !why.empty()) {
                     finished_stage_ = true;
                     spdlog::info("stage \"{}\" ended: {}", stage.name, why);
@@ -118,7 +128,8 @@ private:
                 checkpoint();
                 return {128 + signal, signal == 2 ? "interrupted by SIGINT" : "terminated by SIGTERM"};
             }
-            if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint) checkpoint();
+            if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint)
+                checkpoint();
         }
     }
 
@@ -188,9 +199,10 @@ private:
     std::string why_unstable() const
     {
         if (const int pair = penetrating_pair(model_, state_); pair >= 0) {
-            return fmt::format("the cores of bodies {} and {} penetrate; the contact is too soft or something moves too fast: raise "
-                               "contacts.normal_stiffness or lower the speed",
-                               state_.bodies.id[state_.contacts.a[pair]], state_.bodies.id[state_.contacts.b[pair]]);
+            return fmt::format(
+                "the cores of bodies {} and {} penetrate; the contact is too soft or something moves too fast: raise "
+                "contacts.normal_stiffness or lower the speed",
+                state_.bodies.id[state_.contacts.a[pair]], state_.bodies.id[state_.contacts.b[pair]]);
         }
         const Ledger& e = record_.rows.back().energy;
         if (!std::isfinite(e.kinetic) || !std::isfinite(e.residual())) {
@@ -198,7 +210,8 @@ private:
             return fmt::format("{}; lower control.time_step_safety", what.empty() ? "an energy is not finite" : what);
         }
         if (state_.step > 100 && e.relative_error() > most_energy_error) {
-            return fmt::format("the energy account is off by {:.0f} %; lower control.time_step_safety", 100.0 * e.relative_error());
+            return fmt::format("the energy account is off by {:.0f} %; lower control.time_step_safety",
+                               100.0 * e.relative_error());
         }
         return {};
     }
@@ -206,17 +219,20 @@ private:
     std::string why_ended(const Stage& s) const
     {
         const HistoryRow& r = record_.rows.back();
-        if (s.duration && state_.time - stage_start_ >= *s.duration) return fmt::format("time {:.4g} s reached", state_.time);
+        if (s.duration && state_.time - stage_start_ >= *s.duration)
+            return fmt::format("time {:.4g} s reached", state_.time);
         if (s.displacement && r.displacement - stage_displacement_ >= *s.displacement) {
             return fmt::format("displacement {:.4g} m reached", r.displacement);
         }
         if (s.load_drop && broken_or_damaged() && r.load < (1.0 - *s.load_drop) * stage_peak_) {
             return fmt::format("load dropped by {:.0f} % from its peak {:.5g} N", 100.0 * *s.load_drop, stage_peak_);
         }
-        if (s.unbalanced_force_ratio && state_.time > stage_start_ + s.ramp && r.unbalanced_force_ratio < *s.unbalanced_force_ratio) {
+        if (s.unbalanced_force_ratio && state_.time > stage_start_ + s.ramp &&
+            r.unbalanced_force_ratio < *s.unbalanced_force_ratio) {
             return fmt::format("unbalanced force ratio below {:.2g}", *s.unbalanced_force_ratio);
         }
-        if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time) return "stop.time reached";
+        if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time)
+            return "stop.time reached";
         return {};
     }
     /// A load drop counts only once something failed: waves make the load of a platen dip at first touch.
@@ -290,7 +306,8 @@ void monitor_quasi_static(RunRecord& record)
 
 }  // namespace
 
-Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record, SnapshotFields& last_fields)
+Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record,
+                SnapshotFields& last_fields)
 {
     const Ending ending = Simulation(c, o, built, folder, record, last_fields).run();
     monitor_quasi_static(record);

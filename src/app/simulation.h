@@ -14,8 +14,8 @@ namespace grainfrac {
 
 /// Why a run stopped.
 struct Ending {
-    int code = 0;            ///< exit code
-    std::string reason;      ///< "load dropped by 50 %", "unstable: ...", "SIGINT"
+    int code = 0;        ///< exit code
+    std::string reason;  ///< "load dropped by 50 %", "unstable: ...", "SIGINT"
 };
 
 /// Wall time by phase [s].
@@ -26,14 +26,14 @@ struct PhaseTimes {
 /// What the run found out beyond its files.
 struct RunRecord {
     std::vector<HistoryRow> rows;
-    double peak_load = 0.0;              ///< [N]
-    double peak_stress = 0.0;            ///< [Pa]
-    double peak_time = 0.0;              ///< [s]
-    double peak_displacement = 0.0;      ///< [m]
-    double kinetic_over_elastic = 0.0;   ///< largest from 10 % of the peak load to the peak [-]
-    double imbalance_at_peak = 0.0;      ///< [-]
-    double time_step = 0.0;              ///< last one used [s]
-    double critical_step = 0.0;          ///< [s]
+    double peak_load = 0.0;             ///< [N]
+    double peak_stress = 0.0;           ///< [Pa]
+    double peak_time = 0.0;             ///< [s]
+    double peak_displacement = 0.0;     ///< [m]
+    double kinetic_over_elastic = 0.0;  ///< largest from 10 % of the peak load to the peak [-]
+    double imbalance_at_peak = 0.0;     ///< [-]
+    double time_step = 0.0;             ///< last one used [s]
+    double critical_step = 0.0;         ///< [s]
     std::string limiter;
     double history_interval = 0.0, snapshot_interval = 0.0;  ///< [s]
     PhaseTimes phases;
@@ -41,6 +41,7 @@ struct RunRecord {
 };
 
 /// Step through all stages of `built`, writing into `folder`. The state is left at the end of the run.
-Ending simulate(const Case& c, const Options& options, Built& built, ResultFolder& folder, RunRecord& record, SnapshotFields& last_fields);
+Ending simulate(const Case& c, const Options& options, Built& built, ResultFolder& folder, RunRecord& record,
+                SnapshotFields& last_fields);
 
 }  // namespace grainfrac

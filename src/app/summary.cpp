@@ -33,9 +33,12 @@ json counts(const Built& b)
 {
     int grains = 0, walls = 0, spheres = 0;
     for (int i = 0; i < b.state.bodies.size(); ++i) {
-        if (b.state.bodies.inverse_mass[i] == 0.0) ++walls;
-        else if (b.model.grain_shapes[static_cast<std::size_t>(i)].faces.empty()) ++spheres;
-        else ++grains;
+        if (b.state.bodies.inverse_mass[i] == 0.0)
+            ++walls;
+        else if (b.model.grain_shapes[static_cast<std::size_t>(i)].faces.empty())
+            ++spheres;
+        else
+            ++grains;
     }
     return {{"grains", grains},
             {"spheres", spheres},
@@ -61,7 +64,9 @@ json cracks_json(const std::vector<CrackFace>& cracks, const RunRecord& record)
     }
     if (!cracks.empty()) {
         const CrackFace& first = cracks.front();
-        j["first"] = {{"time_s", first.time}, {"position_m", vector_json(center_of(first))}, {"before_peak", first.time <= record.peak_time}};
+        j["first"] = {{"time_s", first.time},
+                      {"position_m", vector_json(center_of(first))},
+                      {"before_peak", first.time <= record.peak_time}};
     }
     return j;
 }
@@ -90,10 +95,20 @@ json energy_json(const Ledger& e, const RunRecord& record)
         worst = std::max(worst, r.energy.relative_error());
         if (r.time <= record.peak_time) worst_before_peak = std::max(worst_before_peak, r.energy.relative_error());
     }
-    return {{"kinetic_J", e.kinetic}, {"elastic_bonds_J", e.elastic_bonds}, {"elastic_contacts_J", e.elastic_contacts},
-            {"fracture_J", e.fracture}, {"friction_J", e.friction}, {"damping_J", e.damping}, {"external_work_J", e.external},
-            {"gravity_work_J", e.gravity}, {"inserted_J", e.inserted}, {"initial_J", e.initial}, {"residual_J", e.residual()},
-            {"relative_error", e.relative_error()}, {"largest_relative_error", worst}, {"largest_relative_error_before_peak", worst_before_peak}};
+    return {{"kinetic_J", e.kinetic},
+            {"elastic_bonds_J", e.elastic_bonds},
+            {"elastic_contacts_J", e.elastic_contacts},
+            {"fracture_J", e.fracture},
+            {"friction_J", e.friction},
+            {"damping_J", e.damping},
+            {"external_work_J", e.external},
+            {"gravity_work_J", e.gravity},
+            {"inserted_J", e.inserted},
+            {"initial_J", e.initial},
+            {"residual_J", e.residual()},
+            {"relative_error", e.relative_error()},
+            {"largest_relative_error", worst},
+            {"largest_relative_error_before_peak", worst_before_peak}};
 }
 
 json quasi_static_json(const Case& c, const Built& b, const RunRecord& record)
@@ -115,8 +130,8 @@ std::int64_t peak_memory()
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, const RunRecord& record, const Ending& ending,
-                         const SnapshotFields& fields)
+std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, const RunRecord& record,
+                         const Ending& ending, const SnapshotFields& fields)
 {
     const Ledger e = energy_ledger(b.model, b.state);
     json j;
@@ -128,9 +143,14 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     j["threads"] = facts.threads;
     j["exit"] = {{"code", ending.code}, {"reason", ending.reason}};
     j["counts"] = counts(b);
-    j["time_step"] = {{"dt_s", record.time_step}, {"stability_limit_s", record.critical_step}, {"bounded_by", record.limiter},
-                      {"steps", b.state.step}, {"simulated_time_s", b.state.time}};
-    j["test"] = {{"kind", c.test.kind}, {"peak_load_N", record.peak_load}, {"peak_time_s", record.peak_time},
+    j["time_step"] = {{"dt_s", record.time_step},
+                      {"stability_limit_s", record.critical_step},
+                      {"bounded_by", record.limiter},
+                      {"steps", b.state.step},
+                      {"simulated_time_s", b.state.time}};
+    j["test"] = {{"kind", c.test.kind},
+                 {"peak_load_N", record.peak_load},
+                 {"peak_time_s", record.peak_time},
                  {"displacement_at_peak_m", record.peak_displacement}};
     if (b.experiment.specimen.stress_area > 0.0) j["test"]["nominal_strength_Pa"] = record.peak_stress;
     j["cracks"] = cracks_json(collect_cracks(b.model, b.state), record);
@@ -144,7 +164,9 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     j["quasi_static"] = quasi_static_json(c, b, record);
     j["state_hash"] = fmt::format("{:016x}", state_hash(b.state));
     const double steps = static_cast<double>(b.state.step);
-    j["run_time"] = {{"build_s", record.phases.build}, {"steps_s", record.phases.steps}, {"output_s", record.phases.output},
+    j["run_time"] = {{"build_s", record.phases.build},
+                     {"steps_s", record.phases.steps},
+                     {"output_s", record.phases.output},
                      {"steps_per_s", record.phases.steps > 0.0 ? steps / record.phases.steps : 0.0}};
     if (b.state.points.size() > 0 && steps > 0.0) {
         j["run_time"]["ns_per_interface_point_and_step"] = 1e9 * record.phases.steps / steps / b.state.points.size();

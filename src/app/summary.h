@@ -8,8 +8,8 @@
 
 namespace grainfrac {
 
-std::string summary_json(const RunFacts& facts, const Case& c, const Built& built, const RunRecord& record, const Ending& ending,
-                         const SnapshotFields& fields);
+std::string summary_json(const RunFacts& facts, const Case& c, const Built& built, const RunRecord& record,
+                         const Ending& ending, const SnapshotFields& fields);
 
 /// Largest memory of this process so far [B].
 std::int64_t peak_memory();

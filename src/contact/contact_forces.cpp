@@ -35,11 +35,13 @@ struct ContactForces {
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
         active[i] = 0;
         shear_force[i] = Vec3{};
-        twist_moment[i] = max_overlap[i] = offset_force[i] = viscous_force[i] = normal_force[i] = stored_energy[i] = 0.0;
+        twist_moment[i] = max_overlap[i] = offset_force[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =
+            0.0;
         stiffness_scale[i] = 1.0;
     }
 
-    /// Force that the pair's bonds put on a in their last step; their slots keep it until the bonds are evaluated again.
+    /// Force that the pair's bonds put on a in their last step; their slots keep it until the bonds are evaluated
+    /// again.
     GF_FN Vec3 inherited_force(int i) const
     {
         Vec3 f;
@@ -53,8 +55,10 @@ struct ContactForces {
         const double pressed = -dot(f, c.normal), own = l.area_stiffness * c.overlap_volume;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
-        if (pressed <= own) h.offset_force = own - std::fmax(0.0, pressed);
-        else h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
+        if (pressed <= own)
+            h.offset_force = own - std::fmax(0.0, pressed);
+        else
+            h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
         h.max_overlap = std::fmax(0.0, l.area_stiffness * h.stiffness_scale * c.overlap_volume - h.offset_force) /
                         (l.area_stiffness * h.stiffness_scale * c.area);
     }
@@ -67,7 +71,8 @@ struct ContactForces {
             return;
         }
         const Law l = laws[law[i]];
-        ContactHistory h{shear_force[i], normal[i], twist_moment[i], max_overlap[i], offset_force[i], stiffness_scale[i]};
+        ContactHistory h{shear_force[i], normal[i],       twist_moment[i],
+                         max_overlap[i], offset_force[i], stiffness_scale[i]};
         if (active[i] == 0) {
             h = ContactHistory{};
             h.normal = c.normal;
@@ -117,12 +122,30 @@ void contact_forces(const Model& model, State& state, double dt)
     Contacts& c = state.contacts;
     if (c.size() == 0) return;
     parallel_for(d, c.size(),
-                 ContactForces<LinearContact>{
-                     motion_view(state.bodies, d), slots_view(state.slots, d), model.contact_laws.read(d), dt, state.bond_slots(),
-                     c.a.read(d), c.b.read(d), c.law.read(d), c.bond_slot.read(d), c.bond_count.read(d), c.point.read(d),
-                     c.active.write(d), c.shear_force.write(d), c.normal.write(d), c.twist_moment.write(d), c.max_overlap.write(d),
-                     c.offset_force.write(d), c.stiffness_scale.write(d), c.viscous_force.write(d), c.normal_force.write(d),
-                     c.stored_energy.write(d), c.friction_work.write(d), c.viscous_work.write(d), c.hysteresis_work.write(d)});
+                 ContactForces<LinearContact>{motion_view(state.bodies, d),
+                                              slots_view(state.slots, d),
+                                              model.contact_laws.read(d),
+                                              dt,
+                                              state.bond_slots(),
+                                              c.a.read(d),
+                                              c.b.read(d),
+                                              c.law.read(d),
+                                              c.bond_slot.read(d),
+                                              c.bond_count.read(d),
+                                              c.point.read(d),
+                                              c.active.write(d),
+                                              c.shear_force.write(d),
+                                              c.normal.write(d),
+                                              c.twist_moment.write(d),
+                                              c.max_overlap.write(d),
+                                              c.offset_force.write(d),
+                                              c.stiffness_scale.write(d),
+                                              c.viscous_force.write(d),
+                                              c.normal_force.write(d),
+                                              c.stored_energy.write(d),
+                                              c.friction_work.write(d),
+                                              c.viscous_work.write(d),
+                                              c.hysteresis_work.write(d)});
 }
 
 }  // namespace grainfrac

@@ -16,7 +16,8 @@ struct Suppression {
     GF_FN bool operator()(int pair) const
     {
         for (int s = bond_slot[pair]; s < bond_slot[pair] + bond_count[pair]; ++s) {
-            const bool gone = s < interface_retired.size ? interface_retired[s] != 0 : parallel_cause[s - interface_retired.size] != 0;
+            const bool gone = s < interface_retired.size ? interface_retired[s] != 0
+                                                         : parallel_cause[s - interface_retired.size] != 0;
             if (!gone) return true;
         }
         return false;
@@ -39,13 +40,17 @@ struct FindContacts {
         const int i = a[pair], j = b[pair];
         const double reach = shapes.bounding_radius[shape[i]] + shapes.bounding_radius[shape[j]];
         if (norm2(position[j] - position[i]) >= reach * reach || suppressed(pair)) return;
-        point[pair] = contact_manifold({shapes, shape[i], position[i], orientation[i]}, {shapes, shape[j], position[j], orientation[j]});
+        point[pair] = contact_manifold({shapes, shape[i], position[i], orientation[i]},
+                                       {shapes, shape[j], position[j], orientation[j]});
     }
 };
 
 struct PenetrationTerm {
     View<const ContactPoint> point;
-    GF_FN double operator()(int i) const { return point[i].depth > 0.0 && point[i].overlap_volume <= 0.0 ? i + 1.0 : 0.0; }
+    GF_FN double operator()(int i) const
+    {
+        return point[i].depth > 0.0 && point[i].overlap_volume <= 0.0 ? i + 1.0 : 0.0;
+    }
 };
 
 }  // namespace
@@ -58,13 +63,14 @@ void find_contacts(const Model& model, State& state)
     const Suppression suppressed{c.bond_slot.read(d), c.bond_count.read(d), state.interfaces.retired.read(d),
                                  state.parallels.cause.read(d)};
     parallel_for(d, c.size(),
-                 FindContacts{view(model.shapes, d), b.position.read(d), b.orientation.read(d), b.shape.read(d), c.a.read(d), c.b.read(d),
-                              suppressed, c.point.write(d)});
+                 FindContacts{view(model.shapes, d), b.position.read(d), b.orientation.read(d), b.shape.read(d),
+                              c.a.read(d), c.b.read(d), suppressed, c.point.write(d)});
 }
 
 int penetrating_pair(const Model& model, const State& state)
 {
-    const double found = parallel_max(model.device, state.contacts.size(), PenetrationTerm{state.contacts.point.read(model.device)});
+    const double found =
+        parallel_max(model.device, state.contacts.size(), PenetrationTerm{state.contacts.point.read(model.device)});
     return static_cast<int>(found) - 1;
 }
 

@@ -23,7 +23,8 @@ struct Box {
 
 bool overlap(const Box& a, const Box& b)
 {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+           a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
 std::vector<Box> body_boxes(const Model& model, const State& state)
@@ -70,7 +71,8 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes
         if (w <= limit) cell = std::max(cell, w);
     }
     const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
-        return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^ static_cast<std::uint64_t>(z * 83492791LL);
+        return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^
+               static_cast<std::uint64_t>(z * 83492791LL);
     };
     const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
     std::unordered_map<std::uint64_t, std::vector<int>> grid;
@@ -79,7 +81,8 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes
         if (widths[static_cast<std::size_t>(i)] > limit) {
             for (int j = 0; j < n; ++j) {
                 const bool other_large = widths[static_cast<std::size_t>(j)] > limit;
-                if (j != i && (!other_large || i < j) && overlap(b, boxes[static_cast<std::size_t>(j)])) pairs.emplace_back(std::minmax(i, j));
+                if (j != i && (!other_large || i < j) && overlap(b, boxes[static_cast<std::size_t>(j)]))
+                    pairs.emplace_back(std::minmax(i, j));
             }
             continue;
         }
@@ -114,8 +117,10 @@ std::vector<BondedPair> bonded_pairs(const State& state)
     const auto add = [&](const auto& bonds, std::int32_t first) {
         for (int i = 0; i < bonds.size(); ++i) {
             const std::pair<int, int> bodies{bonds.a[i], bonds.b[i]};
-            if (!found.empty() && found.back().bodies == bodies) ++found.back().count;
-            else found.push_back({bodies, first + i, 1});
+            if (!found.empty() && found.back().bodies == bodies)
+                ++found.back().count;
+            else
+                found.push_back({bodies, first + i, 1});
         }
     };
     add(state.interfaces, 0);
@@ -128,7 +133,10 @@ struct StepTravel {
     View<const Vec3> velocity, angular_velocity;
     View<const std::int32_t> shape;
     View<const double> bounding_radius;
-    GF_FN double operator()(int i) const { return norm(velocity[i]) + norm(angular_velocity[i]) * bounding_radius[shape[i]]; }
+    GF_FN double operator()(int i) const
+    {
+        return norm(velocity[i]) + norm(angular_velocity[i]) * bounding_radius[shape[i]];
+    }
 };
 
 }  // namespace
@@ -137,8 +145,9 @@ bool pairs_are_stale(const Model& model, State& state, double dt)
 {
     const Device d = model.device;
     const Bodies& b = state.bodies;
-    state.travel += dt * parallel_max(d, b.size(), StepTravel{b.velocity.read(d), b.angular_velocity.read(d), b.shape.read(d),
-                                                              model.shapes.bounding_radius.read(d)});
+    state.travel += dt * parallel_max(d, b.size(),
+                                      StepTravel{b.velocity.read(d), b.angular_velocity.read(d), b.shape.read(d),
+                                                 model.shapes.bounding_radius.read(d)});
     return state.travel > 0.5 * model.skin;
 }
 
@@ -156,7 +165,8 @@ void find_pairs(const Model& model, State& state)
         const bool has_bond = at_bond < bonded.size() && bonded[at_bond].bodies == pair;
         fresh.a.host().push_back(a);
         fresh.b.host().push_back(b);
-        const auto law_at = static_cast<std::size_t>(bodies.group[a]) * model.groups.size() + static_cast<std::size_t>(bodies.group[b]);
+        const auto law_at =
+            static_cast<std::size_t>(bodies.group[a]) * model.groups.size() + static_cast<std::size_t>(bodies.group[b]);
         fresh.law.host().push_back(model.contact_law_of[law_at]);
         fresh.bond_slot.host().push_back(has_bond ? bonded[at_bond].slot : 0);
         fresh.bond_count.host().push_back(has_bond ? bonded[at_bond].count : 0);

@@ -44,9 +44,9 @@ void gather_forces(const Model& model, State& state)
     Bodies& b = state.bodies;
     const Slots& s = state.slots;
     parallel_for(d, b.size(),
-                 GatherForces{state.incidence.begin.read(d), state.incidence.entry.read(d), s.force.read(d), s.torque_a.read(d),
-                              s.torque_b.read(d), b.mass.read(d), b.inverse_mass.read(d), model.gravity, b.force.write(d),
-                              b.torque.write(d)});
+                 GatherForces{state.incidence.begin.read(d), state.incidence.entry.read(d), s.force.read(d),
+                              s.torque_a.read(d), s.torque_b.read(d), b.mass.read(d), b.inverse_mass.read(d),
+                              model.gravity, b.force.write(d), b.torque.write(d)});
 }
 
 void build_incidence(State& state)

@@ -26,9 +26,9 @@ struct ContactHistory {
 
 /// Motion of b against a at the contact.
 struct ContactMotion {
-    Vec3 velocity;          ///< v_b - v_a at the contact point [m/s]
-    Vec3 mean_spin;         ///< (w_a + w_b)/2 [rad/s]
-    double twist_rate = 0.0;  ///< (w_b - w_a) . n [rad/s]
+    Vec3 velocity;              ///< v_b - v_a at the contact point [m/s]
+    Vec3 mean_spin;             ///< (w_a + w_b)/2 [rad/s]
+    double twist_rate = 0.0;    ///< (w_b - w_a) . n [rad/s]
     double reduced_mass = 0.0;  ///< m_a m_b/(m_a + m_b) [kg]
 };
 
@@ -91,7 +91,8 @@ struct LinearContact {
         r.normal_force = p;
 
         const double K_s = shear_ratio * K;
-        const Vec3 old_shear = tangential(turn_with_contact(h.shear_force, h.normal, c.normal, dot(m.mean_spin, c.normal) * dt), c.normal);
+        const Vec3 old_shear =
+            tangential(turn_with_contact(h.shear_force, h.normal, c.normal, dot(m.mean_spin, c.normal) * dt), c.normal);
         Vec3 shear = old_shear + (K_s * dt) * tangential(m.velocity, c.normal);
         const double pull = norm(shear);
         if (pull > friction * p) {

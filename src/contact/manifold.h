@@ -146,7 +146,9 @@ GF_FN void clip(FlatPolygon& p, double c0, double cx, double cy)
 struct ContactPlane {
     Vec3 origin, e1, e2, normal;
 
-    GF_FN ContactPlane(const Vec3& o, const Vec3& n) : origin(o), e1(any_perpendicular(n)), e2(cross(n, e1)), normal(n) {}
+    GF_FN ContactPlane(const Vec3& o, const Vec3& n) : origin(o), e1(any_perpendicular(n)), e2(cross(n, e1)), normal(n)
+    {
+    }
     /// Height field of a plane nf . x = offset over this plane: height = c0 + cx x + cy y.
     GF_FN void height(const Vec3& nf, double offset, double& c0, double& cx, double& cy) const
     {
@@ -181,7 +183,8 @@ GF_FN void clip(FlatPolygon& p, const FlatPolygon& window)
 }
 
 /// Area integrals of a linear field over the part of the polygon where it is positive.
-GF_FN Resultant face_on_face(const ContactBody& a, const Facing& fa, const ContactBody& b, const Facing& fb, const Vec3& near)
+GF_FN Resultant face_on_face(const ContactBody& a, const Facing& fa, const ContactBody& b, const Facing& fb,
+                             const Vec3& near)
 {
     Resultant r;
     r.normal = normalized(fa.normal - fb.normal);
@@ -246,7 +249,8 @@ GF_FN Resultant on_line(const Vec3& n, Vec3 p0, double g0, Vec3 p1, double g1, d
 }
 
 /// Edge of one body over a face of the other; n points from the face's body to the edge's.
-GF_FN Resultant edge_on_face(const ContactBody& flat, const Facing& face, const Rim& edge, double edge_radius, double reference_area)
+GF_FN Resultant edge_on_face(const ContactBody& flat, const Facing& face, const Rim& edge, double edge_radius,
+                             double reference_area)
 {
     const ContactPlane plane(face.normal * face.offset, face.normal);
     const FlatPolygon window = outline(flat, face.face, plane, false);
@@ -262,14 +266,18 @@ GF_FN Resultant edge_on_face(const ContactBody& flat, const Facing& face, const 
             continue;
         }
         const double t = -h / slope;
-        if (slope > 0.0) t0 = std::fmax(t0, t);
-        else t1 = std::fmin(t1, t);
+        if (slope > 0.0)
+            t0 = std::fmax(t0, t);
+        else
+            t1 = std::fmin(t1, t);
     }
     if (t0 >= t1) return {};
     const double radii = flat.radius() + edge_radius;
     const Vec3 q0 = edge.from + t0 * d, q1 = edge.from + t1 * d;
     const double h0 = dot(q0, face.normal) - face.offset, h1 = dot(q1, face.normal) - face.offset;
-    const auto middle = [&](const Vec3& q, double h) { return q - (0.5 * (h - flat.radius() + edge_radius)) * face.normal; };
+    const auto middle = [&](const Vec3& q, double h) {
+        return q - (0.5 * (h - flat.radius() + edge_radius)) * face.normal;
+    };
     return on_line(face.normal, middle(q0, h0), radii - h0, middle(q1, h1), radii - h1, reference_area);
 }
 
@@ -344,7 +352,8 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
         const double face_a = fa.weight * eb.weight, face_b = ea.weight * fb.weight;
         double edges = 0.0;
         if (ea.weight > 0.0 && eb.weight > 0.0) {
-            edges = ea.weight * eb.weight * alignment(norm2(cross(normalized(ea.to - ea.from), normalized(eb.to - eb.from))));
+            edges = ea.weight * eb.weight *
+                    alignment(norm2(cross(normalized(ea.to - ea.from), normalized(eb.to - eb.from))));
         }
         double line = 0.0;
         Resultant on_segment;

@@ -29,11 +29,13 @@ struct Jaw {
 
 void flat_platen(const Jaw& j, double radius, int wall, Model& model, State& state)
 {
-    add_plate(model, state, wall, j.center + 2.0 * radius * j.up, -j.up, j.side, 2.0 * j.half_width, j.depth, 2.0 * platen_thickness * j.half_width);
+    add_plate(model, state, wall, j.center + 2.0 * radius * j.up, -j.up, j.side, 2.0 * j.half_width, j.depth,
+              2.0 * platen_thickness * j.half_width);
 }
 
 /// Plates tangent to the jaw's circle, one for each facet of the disc that the contact covers, centred on the pole.
-void curved_platen(const Jaw& j, double radius, double jaw_radius, double facet_angle, int wall, Model& model, State& state)
+void curved_platen(const Jaw& j, double radius, double jaw_radius, double facet_angle, int wall, Model& model,
+                   State& state)
 {
     const double width = 2.0 * jaw_radius * std::tan(0.5 * facet_angle);
     const Vec3 jaw_center = j.center + (2.0 * radius - jaw_radius) * j.up;
@@ -66,13 +68,15 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
         j.up = static_cast<double>(sign) * jaw.up;
         const int wall = add_wall(model, sign > 0 ? "platen_top" : "platen_bottom");
         if (c.test.platen == "curved") {
-            const double jaw_radius = c.test.platen_radius > 0.0 ? c.test.platen_radius : jaw_radius_factor * 0.5 * diameter;
+            const double jaw_radius =
+                c.test.platen_radius > 0.0 ? c.test.platen_radius : jaw_radius_factor * 0.5 * diameter;
             curved_platen(j, 0.5 * diameter, jaw_radius, 2.0 * std::numbers::pi / region.facets, wall, model, state);
         } else {
             flat_platen(j, 0.5 * diameter, wall, model, state);
         }
         if (!move_to_touch(model, state, wall, -j.up)) {
-            throw InputError("test.contact_half_width", "the platen passes between the grains; widen it or refine the grains");
+            throw InputError("test.contact_half_width",
+                             "the platen passes between the grains; widen it or refine the grains");
         }
     }
 
@@ -101,12 +105,15 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
     // closing at failure: about 4 nominal strains sigma_t/E over the diameter, contact compliance included
     double strength = 0.0;
     for (const BondSpec& b : c.bonds) strength = std::max(strength, b.tensile_strength);
-    if (strength > 0.0) e.expected_duration = 4.0 * strength / m.young_modulus * diameter / c.test.platen_speed + 0.5 * load.ramp;
+    if (strength > 0.0)
+        e.expected_duration = 4.0 * strength / m.young_modulus * diameter / c.test.platen_speed + 0.5 * load.ramp;
     if (load.displacement) {
         const double by_strain = *load.displacement / c.test.platen_speed + 0.5 * load.ramp;
         e.expected_duration = e.expected_duration > 0.0 ? std::min(e.expected_duration, by_strain) : by_strain;
     }
-    if (load.duration) e.expected_duration = e.expected_duration > 0.0 ? std::min(e.expected_duration, *load.duration) : *load.duration;
+    if (load.duration)
+        e.expected_duration =
+            e.expected_duration > 0.0 ? std::min(e.expected_duration, *load.duration) : *load.duration;
     return e;
 }
 

@@ -49,7 +49,8 @@ void check_snap_back(const Model& model, const State& state, const BondTable& ta
         if (law.softening != Softening::bilinear || law.failure == FailureUnit::unbreakable) continue;
         Worst& w = worst[static_cast<std::size_t>(f.law[i])];
         const double scale = f.strength_factor[i] * f.strength_factor[i] / f.toughness_factor[i];
-        w.needed_I = std::max(w.needed_I, scale * law.tensile_strength * law.tensile_strength / (2.0 * f.normal_stiffness[i]));
+        w.needed_I =
+            std::max(w.needed_I, scale * law.tensile_strength * law.tensile_strength / (2.0 * f.normal_stiffness[i]));
         w.needed_II = std::max(w.needed_II, scale * law.cohesion * law.cohesion / (2.0 * f.shear_stiffness[i]));
         if (entry[static_cast<std::size_t>(f.law[i])] < 0) {
             entry[static_cast<std::size_t>(f.law[i])] =
@@ -62,12 +63,15 @@ void check_snap_back(const Model& model, const State& state, const BondTable& ta
         const auto refuse = [&](const char* key, double found, double needed, const char* formula) {
             if (needed < found) return;
             problems.push_back({fmt::format("bonds[{}].{}", entry[l], key),
-                                fmt::format("must be > {} = {:.4g} J/m^2 for the stiffest face, or the bond snaps back within itself; raise it, "
+                                fmt::format("must be > {} = {:.4g} J/m^2 for the stiffest face, or the bond snaps back "
+                                            "within itself; raise it, "
                                             "lower the strength, refine the grains, or set softening = \"brittle\"",
                                             formula, needed)});
         };
-        if (worst[l].needed_I > 0.0) refuse("fracture_energy_I", law.fracture_energy_I, worst[l].needed_I, "tensile_strength^2/(2 k_n)");
-        if (worst[l].needed_II > 0.0) refuse("fracture_energy_II", law.fracture_energy_II, worst[l].needed_II, "cohesion^2/(2 k_s)");
+        if (worst[l].needed_I > 0.0)
+            refuse("fracture_energy_I", law.fracture_energy_I, worst[l].needed_I, "tensile_strength^2/(2 k_n)");
+        if (worst[l].needed_II > 0.0)
+            refuse("fracture_energy_II", law.fracture_energy_II, worst[l].needed_II, "cohesion^2/(2 k_s)");
     }
     if (!problems.empty()) throw InputError(std::move(problems));
 }
@@ -77,7 +81,8 @@ void check_bonds_exist(const Case& c, const Model& model, const State& state, co
     if (c.bonds.empty() || state.bond_slots() > 0) return;
     for (std::size_t a = 0; a < model.groups.size(); ++a) {
         if (table.rule_of(static_cast<int>(a), static_cast<int>(a)) != nullptr && state.bodies.size() > 1) {
-            throw InputError("bonds[0].between", "no two grains of these parts share a face, so that no bond can be made");
+            throw InputError("bonds[0].between",
+                             "no two grains of these parts share a face, so that no bond can be made");
         }
     }
 }
@@ -90,9 +95,11 @@ Built build(const Case& c, Device device)
     Model& model = built.model;
     State& state = built.state;
     model.device = device;
-    for (const MaterialSpec& m : c.materials) model.materials.push_back({m.name, m.density, m.young_modulus, m.poisson_ratio});
+    for (const MaterialSpec& m : c.materials)
+        model.materials.push_back({m.name, m.density, m.young_modulus, m.poisson_ratio});
     const auto material_index = [&](const std::string& name) {
-        return static_cast<std::int32_t>(std::find_if(model.materials.begin(), model.materials.end(), [&](const Material& m) { return m.name == name; }) -
+        return static_cast<std::int32_t>(std::find_if(model.materials.begin(), model.materials.end(),
+                                                      [&](const Material& m) { return m.name == name; }) -
                                          model.materials.begin());
     };
     for (const PartSpec& p : c.parts) model.groups.push_back({p.name, material_index(p.material), false});
@@ -123,11 +130,13 @@ Built build(const Case& c, Device device)
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     double strength = 0.0;
     for (const BondSpec& b : c.bonds) {
-        if (b.tensile_strength > 0.0) strength = strength > 0.0 ? std::min(strength, b.tensile_strength) : b.tensile_strength;
+        if (b.tensile_strength > 0.0)
+            strength = strength > 0.0 ? std::min(strength, b.tensile_strength) : b.tensile_strength;
     }
     const Material& m = model.materials.front();
     built.experiment.quasi_static_speed = 0.01 * strength / std::sqrt(m.density * m.young_modulus);
-    if (const std::string why = why_not_valid(model, state); !why.empty()) throw std::logic_error("built an impossible state: " + why);
+    if (const std::string why = why_not_valid(model, state); !why.empty())
+        throw std::logic_error("built an impossible state: " + why);
     return built;
 }
 

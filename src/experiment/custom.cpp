@@ -38,7 +38,8 @@ Stage make_stage(const StageSpec& s, const Model& model)
     Stage stage;
     stage.name = s.name;
     stage.wall_velocity.assign(model.walls.size(), Vec3{});
-    for (const StageMotion& m : s.motions) stage.wall_velocity[static_cast<std::size_t>(wall_named(model, m.wall))] = m.velocity;
+    for (const StageMotion& m : s.motions)
+        stage.wall_velocity[static_cast<std::size_t>(wall_named(model, m.wall))] = m.velocity;
     stage.ramp = s.ramp;
     stage.local_damping = s.local_damping;
     stage.fracture = s.fracture;
@@ -79,11 +80,13 @@ Experiment set_up_custom(const Case& c, Model& model, State& state)
             e.specimen.loaded_wall = static_cast<std::int32_t>(w);
             e.specimen.load_direction = d;
             e.specimen.length = std::fabs(d.x) * size.x + std::fabs(d.y) * size.y + std::fabs(d.z) * size.z;
-            e.specimen.stress_area = std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
+            e.specimen.stress_area =
+                std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
         }
     }
     e.expected_duration = longest;
-    if (c.test.stop.time) e.expected_duration = longest > 0.0 ? std::min(longest, *c.test.stop.time) : *c.test.stop.time;
+    if (c.test.stop.time)
+        e.expected_duration = longest > 0.0 ? std::min(longest, *c.test.stop.time) : *c.test.stop.time;
     return e;
 }
 

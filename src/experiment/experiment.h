@@ -19,28 +19,28 @@ struct Stage {
     double ramp = 0.0;                ///< time over which walls change speed [s]
     double local_damping = 0.0;       ///< [-]
     bool fracture = true;
-    std::optional<double> duration;   ///< [s]
-    std::optional<double> load_drop;  ///< share of the peak load of this stage [-]
-    std::optional<double> displacement;  ///< closing of the walls [m]
+    std::optional<double> duration;                ///< [s]
+    std::optional<double> load_drop;               ///< share of the peak load of this stage [-]
+    std::optional<double> displacement;            ///< closing of the walls [m]
     std::optional<double> unbalanced_force_ratio;  ///< [-]
 };
 
 /// What the measures refer to.
 struct Specimen {
-    double length = 0.0;        ///< along the load: strain = displacement/length; 0: no nominal values [m]
-    double stress_area = 0.0;   ///< nominal stress = load/area; Brazilian: pi D t/2; 0: none [m^2]
-    Vec3 load_direction;        ///< unit [-]
-    std::int32_t loaded_wall = -1;   ///< its motion is the displacement, its force the load
+    double length = 0.0;              ///< along the load: strain = displacement/length; 0: no nominal values [m]
+    double stress_area = 0.0;         ///< nominal stress = load/area; Brazilian: pi D t/2; 0: none [m^2]
+    Vec3 load_direction;              ///< unit [-]
+    std::int32_t loaded_wall = -1;    ///< its motion is the displacement, its force the load
     std::int32_t opposite_wall = -1;  ///< for imbalance; -1: none
-    bool compression = true;    ///< load is the magnitude of a push
+    bool compression = true;          ///< load is the magnitude of a push
 };
 
 struct Experiment {
     std::string kind;
     Specimen specimen;
     std::vector<Stage> stages;
-    double expected_duration = 0.0;  ///< guess from elasticity and strength, for output intervals and time left [s]
-    double wave_speed = 0.0;         ///< sqrt(E/rho) of the first material [m/s]
+    double expected_duration = 0.0;   ///< guess from elasticity and strength, for output intervals and time left [s]
+    double wave_speed = 0.0;          ///< sqrt(E/rho) of the first material [m/s]
     double quasi_static_speed = 0.0;  ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
 };
 

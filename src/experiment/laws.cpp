@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-
 namespace grainfrac {
 
 namespace {
@@ -27,9 +26,10 @@ QuadratureRule rule_named(const std::string& word)
 {
     using enum QuadratureRule;
     static const std::vector<std::pair<std::string, QuadratureRule>> names = {
-        {"auto", automatic}, {"cross", cross}, {"fan3", fan3}, {"fan7", fan7}, {"gauss2", gauss2}, {"gauss3", gauss3},
-        {"gauss4", gauss4}, {"gauss6", gauss6}, {"gauss8", gauss8}, {"lobatto3", lobatto3}, {"lobatto4", lobatto4},
-        {"lobatto5", lobatto5}, {"lobatto6", lobatto6}, {"lobatto8", lobatto8}};
+        {"auto", automatic},    {"cross", cross},       {"fan3", fan3},         {"fan7", fan7},
+        {"gauss2", gauss2},     {"gauss3", gauss3},     {"gauss4", gauss4},     {"gauss6", gauss6},
+        {"gauss8", gauss8},     {"lobatto3", lobatto3}, {"lobatto4", lobatto4}, {"lobatto5", lobatto5},
+        {"lobatto6", lobatto6}, {"lobatto8", lobatto8}};
     for (const auto& [name, rule] : names) {
         if (name == word) return rule;
     }
@@ -48,14 +48,16 @@ InterfaceLaw interface_law(const BondSpec& s)
     l.mixed_mode_exponent = s.mixed_mode_exponent;
     l.onset = s.onset == "quadratic" ? OnsetSurface::quadratic : OnsetSurface::mohr_coulomb;
     l.softening = s.softening == "brittle" ? Softening::brittle : Softening::bilinear;
-    l.failure = s.failure == "unbreakable" ? FailureUnit::unbreakable : (s.failure == "face" ? FailureUnit::face : FailureUnit::point);
+    l.failure = s.failure == "unbreakable" ? FailureUnit::unbreakable
+                                           : (s.failure == "face" ? FailureUnit::face : FailureUnit::point);
     l.mixed_mode = s.mixed_mode == "power" ? MixedMode::power : MixedMode::benzeggagh_kenane;
     return l;
 }
 
 ParallelLaw parallel_law(const BondSpec& s)
 {
-    return {s.tensile_strength, s.cohesion, s.friction, s.moment_contribution, s.law == "point", s.failure != "unbreakable"};
+    return {s.tensile_strength,    s.cohesion,       s.friction,
+            s.moment_contribution, s.law == "point", s.failure != "unbreakable"};
 }
 
 }  // namespace
@@ -105,9 +107,11 @@ BondTable::BondTable(const Case& c, Model& model)
             const Material& ma = model.materials[static_cast<std::size_t>(ga.material)];
             const Material& mb = model.materials[static_cast<std::size_t>(gb.material)];
             const double E = 2.0 / (1.0 / ma.young_modulus + 1.0 / mb.young_modulus);
-            const NetworkStiffness k = network_stiffness(s.elasticity, E, 0.5 * (ma.poisson_ratio + mb.poisson_ratio), s.shear_ratio);
+            const NetworkStiffness k =
+                network_stiffness(s.elasticity, E, 0.5 * (ma.poisson_ratio + mb.poisson_ratio), s.shear_ratio);
             BondRule r;
-            r.kind = s.law == "interface" ? BondRule::Kind::interface : (s.law == "parallel" ? BondRule::Kind::parallel : BondRule::Kind::point);
+            r.kind =
+                s.law == "interface" ? BondRule::Kind::interface : (s.law == "parallel" ? BondRule::Kind::parallel : BondRule::Kind::point);
             if (r.kind == BondRule::Kind::interface) {
                 r.law = model.interface_laws.size();
                 model.interface_laws.host().push_back(interface_law(s));
@@ -127,7 +131,8 @@ BondTable::BondTable(const Case& c, Model& model)
             r.misorientation_angle = s.misorientation_angle;
             r.misorientation_effect = s.misorientation_effect;
             const auto at = static_cast<int>(rules_.size());
-            of_pair_[static_cast<std::size_t>(a * groups_ + b)] = of_pair_[static_cast<std::size_t>(b * groups_ + a)] = at;
+            of_pair_[static_cast<std::size_t>(a * groups_ + b)] = of_pair_[static_cast<std::size_t>(b * groups_ + a)] =
+                at;
             rules_.push_back(r);
             entry_.push_back(entry);
         }
@@ -183,7 +188,8 @@ void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model&
             for (const int g : {a, b}) {
                 const std::int32_t m = model.groups[static_cast<std::size_t>(g)].material;
                 if (m < 0) continue;
-                compliance += spacing[static_cast<std::size_t>(g)] / model.materials[static_cast<std::size_t>(m)].young_modulus;
+                compliance +=
+                    spacing[static_cast<std::size_t>(g)] / model.materials[static_cast<std::size_t>(m)].young_modulus;
                 ++grains;
             }
             LinearContact law{};
@@ -193,8 +199,8 @@ void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model&
             law.friction = s.friction;
             law.unload_factor = s.dissipation == "hysteretic" ? 1.0 / (s.restitution * s.restitution) : 1.0;
             law.damping_ratio = s.dissipation == "viscous" ? damping_ratio_of(s.restitution) : 0.0;
-            model.contact_law_of[static_cast<std::size_t>(a * n + b)] = model.contact_law_of[static_cast<std::size_t>(b * n + a)] =
-                model.contact_laws.size();
+            model.contact_law_of[static_cast<std::size_t>(a * n + b)] =
+                model.contact_law_of[static_cast<std::size_t>(b * n + a)] = model.contact_laws.size();
             model.contact_laws.host().push_back(law);
         }
     }

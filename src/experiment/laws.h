@@ -12,7 +12,8 @@ namespace grainfrac {
 
 /// Index of the most specific entry whose `between` covers groups a and b, -1 if none does. A group is named by its own
 /// name, "platen" (both platens of a ready-made test), its material, or "*"; the later of equals wins.
-int most_specific(const std::vector<std::array<std::string, 2>>& betweens, const Model& model, int group_a, int group_b);
+int most_specific(const std::vector<std::array<std::string, 2>>& betweens, const Model& model, int group_a,
+                  int group_b);
 
 /// One rule for every pair of groups that is bonded; fills interface_laws and parallel_laws.
 class BondTable {
@@ -36,9 +37,10 @@ void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model&
 /// Viscous ratio zeta < 1 that gives a restitution when the contact cannot pull; 1 for what no such ratio reaches [-].
 double damping_ratio_of(double restitution);
 
-/// Stiffness k_n h and ratio k_s/k_n that make an assembly of modulus E and Poisson ratio nu (rigid-body-spring network;
-/// Kawai 1978). `kind`: homogeneous (nu = 0: k_n = k_s = E/h, exact on any Voronoi or power diagram), plane (hexagonal
-/// prisms, plane stress), solid (statistically isotropic; mean field). A given ratio takes precedence over nu.
+/// Stiffness k_n h and ratio k_s/k_n that make an assembly of modulus E and Poisson ratio nu (rigid-body-spring
+/// network; Kawai 1978). `kind`: homogeneous (nu = 0: k_n = k_s = E/h, exact on any Voronoi or power diagram), plane
+/// (hexagonal prisms, plane stress), solid (statistically isotropic; mean field). A given ratio takes precedence over
+/// nu.
 struct NetworkStiffness {
     double modulus = 0.0;      ///< k_n h [Pa]
     double shear_ratio = 1.0;  ///< [-]

@@ -20,7 +20,9 @@ int group_of_wall(const Model& model, int wall)
 {
     const std::string& name = model.walls[static_cast<std::size_t>(wall)];
     int g = 0;
-    while (!(model.groups[static_cast<std::size_t>(g)].is_wall && model.groups[static_cast<std::size_t>(g)].name == name)) ++g;
+    while (
+        !(model.groups[static_cast<std::size_t>(g)].is_wall && model.groups[static_cast<std::size_t>(g)].name == name))
+        ++g;
     return g;
 }
 
@@ -37,7 +39,8 @@ double least_gap(const Model& model, const State& state, const std::vector<int>&
             const double reach = shapes.bounding_radius[b.shape[i]] + shapes.bounding_radius[b.shape[w]];
             if (norm(b.position[i] - b.position[w]) - reach >= best) continue;
             const ContactBody y{shapes, b.shape[i], b.position[i], b.orientation[i]};
-            best = std::min(best, closest_points(x.core(), y.core(), y.position - x.position).distance - x.radius() - y.radius());
+            best = std::min(
+                best, closest_points(x.core(), y.core(), y.position - x.position).distance - x.radius() - y.radius());
         }
     }
     return best;
@@ -55,11 +58,13 @@ bool move_to_touch(const Model& model, State& state, int wall, const Vec3& direc
     }
     const std::vector<Vec3> before = state.bodies.position.host();
     double travelled = 0.0, limit = 0.0;
-    for (const Vec3& x : before) limit = std::max(limit, 4.0 * norm(x - before[static_cast<std::size_t>(bodies.front())]));
+    for (const Vec3& x : before)
+        limit = std::max(limit, 4.0 * norm(x - before[static_cast<std::size_t>(bodies.front())]));
     for (int round = 0; round < most_rounds && travelled <= limit; ++round) {
         const double gap = least_gap(model, state, bodies, std::numeric_limits<double>::max());
         if (gap <= closed) {
-            for (const int i : bodies) state.bodies.start_position.host()[static_cast<std::size_t>(i)] = state.bodies.position[i];
+            for (const int i : bodies)
+                state.bodies.start_position.host()[static_cast<std::size_t>(i)] = state.bodies.position[i];
             return true;
         }
         travelled += gap;
@@ -77,14 +82,15 @@ int add_wall(Model& model, const std::string& name)
     return static_cast<int>(model.walls.size()) - 1;
 }
 
-void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along, double width,
-               double depth, double thickness)
+void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along,
+               double width, double depth, double thickness)
 {
     const double radius = plate_rounding * std::min({width, depth, thickness});
     const Vec3 n = normalized(normal), e = normalized(tangential(along, n)), f = cross(n, e);
     const Polyhedron box = make_box({width - 2.0 * radius, depth - 2.0 * radius, thickness - 2.0 * radius});
     const Mat3 axes = transpose(Mat3{{e, f, n}});  // columns: box axes in space
-    add_wall_plate(model, state, wall, group_of_wall(model, wall), rotated(box, from_matrix(axes)), face_center - (0.5 * thickness) * n, radius);
+    add_wall_plate(model, state, wall, group_of_wall(model, wall), rotated(box, from_matrix(axes)),
+                   face_center - (0.5 * thickness) * n, radius);
 }
 
 void add_wall(Model& model, State& state, const WallSpec& spec)
@@ -92,11 +98,13 @@ void add_wall(Model& model, State& state, const WallSpec& spec)
     const int wall = add_wall(model, spec.name);
     if (spec.shape == "plate") {
         const double thickness = spec.thickness > 0.0 ? spec.thickness : 0.1 * std::max(spec.size[0], spec.size[1]);
-        add_plate(model, state, wall, spec.center, spec.normal, any_perpendicular(normalized(spec.normal)), spec.size[0], spec.size[1], thickness);
+        add_plate(model, state, wall, spec.center, spec.normal, any_perpendicular(normalized(spec.normal)),
+                  spec.size[0], spec.size[1], thickness);
         return;
     }
     const double length = spec.shape == "cylinder" ? spec.length : 0.0;
-    add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center, spec.radius);
+    add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center,
+                   spec.radius);
 }
 
 }  // namespace grainfrac

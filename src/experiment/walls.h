@@ -15,8 +15,8 @@ int add_wall(Model& model, const std::string& name);
 
 /// Plate of wall `wall` whose loaded face is centred at `face_center` and looks along `normal`; in-plane full lengths
 /// `width` along `along` and `depth` across it.
-void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along, double width,
-               double depth, double thickness);
+void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along,
+               double width, double depth, double thickness);
 
 /// Move the bodies of a wall along the unit vector `direction` until the first of them touches a free body: gap 0, no
 /// overlap, found by conservative advancement. False (nothing moved) if they would pass all bodies.

@@ -66,7 +66,8 @@ struct InterfaceForces {
     GF_FN double power_on_bodies(int i) const
     {
         return dot(viscous_force[i], body.velocity[a[i]] - body.velocity[b[i]]) +
-               dot(viscous_torque_a[i], body.angular_velocity[a[i]]) + dot(viscous_torque_b[i], body.angular_velocity[b[i]]);
+               dot(viscous_torque_a[i], body.angular_velocity[a[i]]) +
+               dot(viscous_torque_b[i], body.angular_velocity[b[i]]);
     }
 
     GF_FN void operator()(int i) const
@@ -88,7 +89,8 @@ struct InterfaceForces {
         const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
         const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
 
-        // Work of dashpots, trapezoidal in time: half of each force with the velocity before it, half with the one after.
+        // Work of dashpots, trapezoidal in time: half of each force with the velocity before it, half with the one
+        // after.
         double viscous = 0.5 * power_on_bodies(i);
 
         Vec3 force, torque_a, torque_b;  // elastic, on a; torques on a and b
@@ -102,13 +104,14 @@ struct InterfaceForces {
             const Vec3 jump = f.between + arm_b - arm_a;
             const double d_n = dot(jump, f.n), d_1 = dot(jump, f.t1), d_2 = dot(jump, f.t2);
             InterfacePointState p;
-            if (point_onset[q] > 0.0) p = {point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
+            if (point_onset[q] > 0.0)
+                p = {point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
             const double onset_before = p.onset;
             const Vec3 rate = relative_velocity + cross(wb, arm_b) - cross(wa, arm_a);
             const double rate_n = dot(rate, f.n);
             const InterfaceJump before{d_n - dt * rate_n, d_1 - dt * dot(rate, f.t1), d_2 - dt * dot(rate, f.t2)};
-            const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i], may_fail && !by_face,
-                                          fail_now, p);
+            const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i],
+                                          may_fail && !by_face, fail_now, p);
             if (p.onset > 0.0) {
                 point_damage[q] = p.damage;
                 point_onset[q] = p.onset;
@@ -241,8 +244,9 @@ struct ParallelForces {
         moment[i] = m;
         normal[i] = n;
         const double f_n = dot(f, n), m_n = dot(m, n);
-        stored_energy[i] = 0.5 * (f_n * f_n / (k_n * section.area) + norm2(tangential(f, n)) / (k_s * section.area) +
-                                  m_n * m_n / (k_s * section.polar) + norm2(tangential(m, n)) / (k_n * section.bending));
+        stored_energy[i] =
+            0.5 * (f_n * f_n / (k_n * section.area) + norm2(tangential(f, n)) / (k_s * section.area) +
+                   m_n * m_n / (k_s * section.polar) + norm2(tangential(m, n)) / (k_n * section.bending));
 
         const Vec3 drag = normal_damping[i] * u_n + shear_damping[i] * (rate - u_n);
         viscous_work[i] += 0.5 * dt * dot(viscous_force[i] + drag, rate);
@@ -272,40 +276,96 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt)
     const Device d = model.device;
     InterfaceBonds& i = state.interfaces;
     InterfacePoints& p = state.points;
-    return {motion_view(state.bodies, d), slots_view(state.slots, d), model.interface_laws.read(d), dt, state.time,
+    return {motion_view(state.bodies, d),
+            slots_view(state.slots, d),
+            model.interface_laws.read(d),
+            dt,
+            state.time,
             model.fracture_active,
-            i.a.read(d), i.b.read(d), i.law.read(d), i.point_begin.read(d), i.corner_begin.read(d),
-            i.normal_a.read(d), i.normal_b.read(d), i.tangent_a.read(d), i.tangent_b.read(d),
-            i.area.read(d), i.diameter.read(d), i.normal_stiffness.read(d), i.shear_stiffness.read(d), i.normal_damping.read(d),
-            i.shear_damping.read(d), i.strength_factor.read(d), i.toughness_factor.read(d), i.opening_limit.read(d),
-            p.position_a.read(d), p.position_b.read(d), state.corners.position_a.read(d), state.corners.position_b.read(d),
+            i.a.read(d),
+            i.b.read(d),
+            i.law.read(d),
+            i.point_begin.read(d),
+            i.corner_begin.read(d),
+            i.normal_a.read(d),
+            i.normal_b.read(d),
+            i.tangent_a.read(d),
+            i.tangent_b.read(d),
+            i.area.read(d),
+            i.diameter.read(d),
+            i.normal_stiffness.read(d),
+            i.shear_stiffness.read(d),
+            i.normal_damping.read(d),
+            i.shear_damping.read(d),
+            i.strength_factor.read(d),
+            i.toughness_factor.read(d),
+            i.opening_limit.read(d),
+            p.position_a.read(d),
+            p.position_b.read(d),
+            state.corners.position_a.read(d),
+            state.corners.position_b.read(d),
             p.weight.read(d),
-            i.retired.write(d), i.damage.write(d), i.stored_energy.write(d), i.fracture_work.write(d), i.friction_work.write(d),
-            i.viscous_work.write(d), i.shear_share.write(d), i.first_damage_time.write(d), i.failure_time.write(d),
-            i.viscous_force.write(d), i.viscous_torque_a.write(d), i.viscous_torque_b.write(d),
-            p.damage.write(d), p.onset.write(d), p.failure.write(d), p.slip.write(d)};
+            i.retired.write(d),
+            i.damage.write(d),
+            i.stored_energy.write(d),
+            i.fracture_work.write(d),
+            i.friction_work.write(d),
+            i.viscous_work.write(d),
+            i.shear_share.write(d),
+            i.first_damage_time.write(d),
+            i.failure_time.write(d),
+            i.viscous_force.write(d),
+            i.viscous_torque_a.write(d),
+            i.viscous_torque_b.write(d),
+            p.damage.write(d),
+            p.onset.write(d),
+            p.failure.write(d),
+            p.slip.write(d)};
 }
 
 ParallelForces parallel_kernel(const Model& model, State& state, double dt)
 {
     const Device d = model.device;
     ParallelBonds& p = state.parallels;
-    return {motion_view(state.bodies, d), slots_view(state.slots, d), model.parallel_laws.read(d), dt, state.time,
-            model.fracture_active, state.interfaces.size(),
-            p.a.read(d), p.b.read(d), p.law.read(d),
-            p.position_a.read(d), p.position_b.read(d), p.normal_a.read(d), p.normal_b.read(d),
-            p.radius.read(d), p.normal_stiffness.read(d), p.shear_stiffness.read(d), p.normal_damping.read(d),
-            p.shear_damping.read(d), p.strength_factor.read(d),
-            p.force.write(d), p.moment.write(d), p.normal.write(d), p.cause.write(d), p.stored_energy.write(d),
-            p.fracture_work.write(d), p.viscous_work.write(d), p.failure_time.write(d), p.viscous_force.write(d)};
+    return {motion_view(state.bodies, d),
+            slots_view(state.slots, d),
+            model.parallel_laws.read(d),
+            dt,
+            state.time,
+            model.fracture_active,
+            state.interfaces.size(),
+            p.a.read(d),
+            p.b.read(d),
+            p.law.read(d),
+            p.position_a.read(d),
+            p.position_b.read(d),
+            p.normal_a.read(d),
+            p.normal_b.read(d),
+            p.radius.read(d),
+            p.normal_stiffness.read(d),
+            p.shear_stiffness.read(d),
+            p.normal_damping.read(d),
+            p.shear_damping.read(d),
+            p.strength_factor.read(d),
+            p.force.write(d),
+            p.moment.write(d),
+            p.normal.write(d),
+            p.cause.write(d),
+            p.stored_energy.write(d),
+            p.fracture_work.write(d),
+            p.viscous_work.write(d),
+            p.failure_time.write(d),
+            p.viscous_force.write(d)};
 }
 
 }  // namespace
 
 void bond_forces(const Model& model, State& state, double dt)
 {
-    if (state.interfaces.size() > 0) parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt));
-    if (state.parallels.size() > 0) parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt));
+    if (state.interfaces.size() > 0)
+        parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt));
+    if (state.parallels.size() > 0)
+        parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt));
 }
 
 void start_bonds(const Model&, State& state)

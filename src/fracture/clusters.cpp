@@ -51,12 +51,15 @@ std::vector<std::int32_t> bonded_clusters(const State& state)
         if (mass[static_cast<std::size_t>(r)] == 0.0) roots.push_back(r);
         mass[static_cast<std::size_t>(r)] += b.mass[i];
     }
-    std::stable_sort(roots.begin(), roots.end(),
-                     [&](int x, int y) { return mass[static_cast<std::size_t>(x)] > mass[static_cast<std::size_t>(y)]; });
+    std::stable_sort(roots.begin(), roots.end(), [&](int x, int y) {
+        return mass[static_cast<std::size_t>(x)] > mass[static_cast<std::size_t>(y)];
+    });
     std::vector<std::int32_t> number(static_cast<std::size_t>(n), -1), cluster(static_cast<std::size_t>(n), -1);
-    for (std::size_t k = 0; k < roots.size(); ++k) number[static_cast<std::size_t>(roots[k])] = static_cast<std::int32_t>(k);
+    for (std::size_t k = 0; k < roots.size(); ++k)
+        number[static_cast<std::size_t>(roots[k])] = static_cast<std::int32_t>(k);
     for (int i = 0; i < n; ++i) {
-        if (b.inverse_mass[i] > 0.0) cluster[static_cast<std::size_t>(i)] = number[static_cast<std::size_t>(sets.root(i))];
+        if (b.inverse_mass[i] > 0.0)
+            cluster[static_cast<std::size_t>(i)] = number[static_cast<std::size_t>(sets.root(i))];
     }
     return cluster;
 }

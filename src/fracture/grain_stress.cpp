@@ -38,7 +38,8 @@ double grain_volume(const Model& model, const State& state, int body)
 std::vector<Mat3> grain_stress(const Model& model, const State& state)
 {
     const Slots& s = state.slots;
-    if (s.size() > 0 && s.dyad_a.size() != s.size()) throw std::logic_error("grain_stress: the last step kept no dyads");
+    if (s.size() > 0 && s.dyad_a.size() != s.size())
+        throw std::logic_error("grain_stress: the last step kept no dyads");
     std::vector<Mat3> stress(static_cast<std::size_t>(state.bodies.size()));
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (state.bodies.inverse_mass[i] == 0.0) continue;

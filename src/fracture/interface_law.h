@@ -6,10 +6,10 @@
 //   Y = k_n <d_n>^2 + k_s |d_t|^2,  lambda = sqrt(Y),  B = k_s |d_t|^2 / Y
 //   D = lambda_f (lambda - lambda_0) / (lambda (lambda_f - lambda_0)),   lambda_f = 2 G_c(B) / lambda_0
 //
-// The energy norm lambda makes the dissipation of any proportional opening G_c(B) exactly, whatever k_n/k_s and G_I/G_II
-// are. Onset surfaces and mode mix: Camacho and Ortiz (1996); Benzeggagh and Kenane (1996); friction in parallel with
-// damage: Alfano and Sacco (2006). Deviation: lambda_0 is frozen at lambda/phi, the state at which the surface was met,
-// so that a step that overshoots the onset lands on the envelope and dissipates no less.
+// The energy norm lambda makes the dissipation of any proportional opening G_c(B) exactly, whatever k_n/k_s and
+// G_I/G_II are. Onset surfaces and mode mix: Camacho and Ortiz (1996); Benzeggagh and Kenane (1996); friction in
+// parallel with damage: Alfano and Sacco (2006). Deviation: lambda_0 is frozen at lambda/phi, the state at which the
+// surface was met, so that a step that overshoots the onset lands on the envelope and dissipates no less.
 #pragma once
 
 #include "gpu/function.h"
@@ -75,8 +75,8 @@ struct InterfaceLaw {
         return sigma < sigma_c && most_shear > 0.0 && tau2 < most_shear * most_shear;
     }
 
-    /// phi >= 1: the effective traction (sigma tension positive, tau >= 0) lies on or beyond the onset surface scaled by
-    /// `strength`.
+    /// phi >= 1: the effective traction (sigma tension positive, tau >= 0) lies on or beyond the onset surface scaled
+    /// by `strength`.
     GF_FN double onset_factor(double sigma, double tau, double strength) const
     {
         const double c = cohesion * strength;
@@ -106,8 +106,9 @@ struct InterfaceLaw {
     /// @param k_n, k_s stiffness per area [Pa/m]  @param strength, toughness scatter factors [-]
     /// @param may_start false: no new onset this step (whole-face law decides, or fracture is off)
     /// @param fail break now, whatever the onset surface says
-    GF_FN InterfaceResponse operator()(const InterfaceJump& d, const InterfaceJump& before, double k_n, double k_s, double strength,
-                                       double toughness, bool may_start, bool fail, InterfacePointState& p) const
+    GF_FN InterfaceResponse operator()(const InterfaceJump& d, const InterfaceJump& before, double k_n, double k_s,
+                                       double strength, double toughness, bool may_start, bool fail,
+                                       InterfacePointState& p) const
     {
         const double d_n = d.n, d_1 = d.s1, d_2 = d.s2;
         const double slid2 = d_1 * d_1 + d_2 * d_2;
@@ -131,7 +132,9 @@ struct InterfaceLaw {
             const double phi = may_start ? onset_factor(k_n * d_n, std::sqrt(k_s * shear_energy), strength) : 0.0;
             if (phi >= 1.0 || fail) {
                 p.onset = phi >= 1.0 ? lambda / phi : lambda;
-                p.failure = softening == Softening::bilinear ? 2.0 * toughness * fracture_energy(shear_energy / Y) / p.onset : 0.0;
+                p.failure = softening == Softening::bilinear
+                                ? 2.0 * toughness * fracture_energy(shear_energy / Y) / p.onset
+                                : 0.0;
                 p.slip1 = d_1;
                 p.slip2 = d_2;
             }
@@ -157,7 +160,8 @@ struct InterfaceLaw {
                 s_2 -= slid_2;
                 p.slip1 = d_1 - s_1;
                 p.slip2 = d_2 - s_2;
-                // mean friction over the step times the slip; the elastic slip before cannot have been beyond its own cap
+                // mean friction over the step times the slip; the elastic slip before cannot have been beyond its own
+                // cap
                 double b_1 = before.s1 - (p.slip1 - slid_1), b_2 = before.s2 - (p.slip2 - slid_2);
                 const double cap_before = before.n < 0.0 ? -residual_friction * k_n * before.n / k_s : 0.0;
                 const double length_before = std::sqrt(b_1 * b_1 + b_2 * b_2);
@@ -165,15 +169,18 @@ struct InterfaceLaw {
                     b_1 *= cap_before / length_before;
                     b_2 *= cap_before / length_before;
                 }
-                r.friction_work = new_damage * k_s * std::fmax(0.0, 0.5 * ((b_1 + s_1) * slid_1 + (b_2 + s_2) * slid_2));
+                r.friction_work =
+                    new_damage * k_s * std::fmax(0.0, 0.5 * ((b_1 + s_1) * slid_1 + (b_2 + s_2) * slid_2));
             }
         }
         const double friction_energy = k_s * (s_1 * s_1 + s_2 * s_2);
 
         if (new_damage > p.damage) {
-            // int 1/2 Y dD: with the mean of Y where D jumps, in closed form along the bilinear envelope, so that G_c is met whatever the step
+            // int 1/2 Y dD: with the mean of Y where D jumps, in closed form along the bilinear envelope, so that G_c
+            // is met whatever the step
             const double opening_before = before.n > 0.0 ? before.n : 0.0;
-            const double Y_before = k_n * opening_before * opening_before + k_s * (before.s1 * before.s1 + before.s2 * before.s2);
+            const double Y_before =
+                k_n * opening_before * opening_before + k_s * (before.s1 * before.s1 + before.s2 * before.s2);
             double released = 0.25 * (Y + Y_before) * (new_damage - p.damage);
             if (p.failure > p.onset) released = envelope_work(new_damage, p) - envelope_work(p.damage, p);
             r.fracture_work = released - 0.5 * friction_energy * (new_damage - p.damage);
@@ -185,7 +192,8 @@ struct InterfaceLaw {
         r.normal = whole * k_n * opening - k_n * closing;
         r.shear1 = k_s * (whole * d_1 + (p.onset > 0.0 ? p.damage * s_1 : 0.0));
         r.shear2 = k_s * (whole * d_2 + (p.onset > 0.0 ? p.damage * s_2 : 0.0));
-        r.stored = 0.5 * whole * Y + 0.5 * k_n * closing * closing + (p.onset > 0.0 ? 0.5 * p.damage * friction_energy : 0.0);
+        r.stored =
+            0.5 * whole * Y + 0.5 * k_n * closing * closing + (p.onset > 0.0 ? 0.5 * p.damage * friction_energy : 0.0);
         return r;
     }
 

@@ -10,9 +10,9 @@ namespace grainfrac {
 
 /// Section constants of a circle of radius R [m].
 struct CircularSection {
-    double area;   ///< A [m^2]
+    double area;     ///< A [m^2]
     double bending;  ///< I [m^4]
-    double polar;  ///< J = 2 I [m^4]
+    double polar;    ///< J = 2 I [m^4]
     GF_FN explicit CircularSection(double R)
         : area(std::numbers::pi * R * R), bending(0.25 * area * R * R), polar(2.0 * bending)
     {

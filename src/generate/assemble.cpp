@@ -55,7 +55,8 @@ int add_grain(Model& model, State& state, const GrainSpec& g)
     const double inradius = inscribed_ball(shape).radius;
     const double radius = std::min(g.dilation_radius, most_dilation * inradius);
     const Polyhedron core = erode(shape, radius);
-    if (core.faces.empty()) throw std::invalid_argument("grain: nothing is left of it after erosion by its dilation radius");
+    if (core.faces.empty())
+        throw std::invalid_argument("grain: nothing is left of it after erosion by its dilation radius");
 
     Bodies& b = state.bodies;
     const int i = new_body(b);
@@ -79,14 +80,17 @@ int add_grain(Model& model, State& state, const GrainSpec& g)
     return i;
 }
 
-int add_wall_plate(Model& model, State& state, int wall, int group, const Polyhedron& core, const Vec3& position, double radius)
+int add_wall_plate(Model& model, State& state, int wall, int group, const Polyhedron& core, const Vec3& position,
+                   double radius)
 {
     return new_wall_body(model, state, wall, group, add_shape(model.shapes, core, radius), position);
 }
 
-int add_wall_round(Model& model, State& state, int wall, int group, const Vec3& axis, double length, const Vec3& position, double radius)
+int add_wall_round(Model& model, State& state, int wall, int group, const Vec3& axis, double length,
+                   const Vec3& position, double radius)
 {
-    const int shape = length > 0.0 ? add_cylinder_shape(model.shapes, axis, length, radius) : add_sphere_shape(model.shapes, radius);
+    const int shape =
+        length > 0.0 ? add_cylinder_shape(model.shapes, axis, length, radius) : add_sphere_shape(model.shapes, radius);
     return new_wall_body(model, state, wall, group, shape, position);
 }
 
@@ -137,7 +141,10 @@ private:
     {
         return rotate_back(state_.bodies.orientation[body], x - state_.bodies.position[body]);
     }
-    Vec3 turned(int body, const Vec3& direction) const { return rotate_back(state_.bodies.orientation[body], direction); }
+    Vec3 turned(int body, const Vec3& direction) const
+    {
+        return rotate_back(state_.bodies.orientation[body], direction);
+    }
     double pair_mass(int a, int b) const
     {
         return 1.0 / (state_.bodies.inverse_mass[a] + state_.bodies.inverse_mass[b]);
@@ -164,7 +171,8 @@ private:
         at(i.shear_damping, n) = per_area * std::sqrt(k_s * f.moments.area * pair_mass(a, b));
         at(i.strength_factor, n) = f.strength;
         at(i.toughness_factor, n) = f.toughness;
-        at(i.opening_limit, n) = model_.shapes.radius[state_.bodies.shape[a]] + model_.shapes.radius[state_.bodies.shape[b]];
+        at(i.opening_limit, n) =
+            model_.shapes.radius[state_.bodies.shape[a]] + model_.shapes.radius[state_.bodies.shape[b]];
         at(i.first_damage_time, n) = at(i.failure_time, n) = -1.0;
         at(i.point_begin, n) = state_.points.size();
         at(i.corner_begin, n) = state_.corners.size();
@@ -220,13 +228,15 @@ void scatter(const Model& model, const State& state, std::int64_t seed, double m
     const int i = f.face->a, j = f.face->b;
     if (rule.weibull_modulus) {
         const auto [low, high] = std::minmax(b.id[i], b.id[j]);
-        const double u = uniform_random(seed, RandomPurpose::strength, static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high));
+        const double u = uniform_random(seed, RandomPurpose::strength, static_cast<std::uint32_t>(low),
+                                        static_cast<std::uint32_t>(high));
         double factor = weibull_factor(u, *rule.weibull_modulus, f.moments.area, rule.weibull_area.value_or(mean_area));
         if (rule.kind == BondRule::Kind::interface) {
             // A bilinear point must keep lambda_f > lambda_0: sigma_c <= sqrt(1.8 k_n G_I) when G_c does not scale too.
             const InterfaceLaw& law = model.interface_laws[rule.law];
             if (law.softening == Softening::bilinear && !rule.weibull_scales_energy) {
-                factor = std::min(factor, std::sqrt(1.8 * f.normal_stiffness * law.fracture_energy_I) / law.tensile_strength);
+                factor = std::min(factor,
+                                  std::sqrt(1.8 * f.normal_stiffness * law.fracture_energy_I) / law.tensile_strength);
             }
         }
         f.strength *= factor;
@@ -256,7 +266,9 @@ int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& 
         const BondRule* rule = rule_of(face.a, face.b);
         if (rule == nullptr) continue;
         BondFace f{&face, rule, polygon_moments(face.polygon)};
-        const double h = std::fabs(dot(grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site, face.normal));
+        const double h =
+            std::fabs(dot(grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site,
+                          face.normal));
         f.normal_stiffness = rule->normal_stiffness.value_or(rule->modulus / h);
         areas[rule].first += f.moments.area;
         areas[rule].second += 1;

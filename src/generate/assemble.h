@@ -19,9 +19,9 @@ struct GrainSpec {
     Vec3 site;                     ///< generator point of its cell; the distance of sites sets bond stiffness [m]
     double dilation_radius = 0.0;  ///< wanted; reduced where the grain is too small for it [m]
     std::int32_t material = 0, group = 0;
-    Quat crystal;                  ///< crystal to space [-]
-    Vec3 velocity;                 ///< [m/s]
-    Vec3 angular_velocity;         ///< [rad/s]
+    Quat crystal;           ///< crystal to space [-]
+    Vec3 velocity;          ///< [m/s]
+    Vec3 angular_velocity;  ///< [rad/s]
 };
 
 /// The dilation radius may take this share of a grain's inradius; more and erosion eats small faces.
@@ -32,24 +32,26 @@ inline constexpr double most_dilation = 1.0 / 3.0;
 int add_grain(Model& model, State& state, const GrainSpec& grain);
 
 /// Driven body. `core` in the frame of the body at `position`.
-int add_wall_plate(Model& model, State& state, int wall, int group, const Polyhedron& core, const Vec3& position, double radius);
-int add_wall_round(Model& model, State& state, int wall, int group, const Vec3& axis, double length, const Vec3& position, double radius);
+int add_wall_plate(Model& model, State& state, int wall, int group, const Polyhedron& core, const Vec3& position,
+                   double radius);
+int add_wall_round(Model& model, State& state, int wall, int group, const Vec3& axis, double length,
+                   const Vec3& position, double radius);
 
 /// How to make the bonds of one kind of grain pair.
 struct BondRule {
     enum class Kind { interface, parallel, point } kind = Kind::interface;
-    std::int32_t law = 0;                ///< into Model::interface_laws or parallel_laws
+    std::int32_t law = 0;  ///< into Model::interface_laws or parallel_laws
     QuadratureRule quadrature = QuadratureRule::automatic;
-    double damping = 0.0;                ///< zeta [-]
+    double damping = 0.0;                    ///< zeta [-]
     std::optional<double> normal_stiffness;  ///< [Pa/m]; else modulus/h
-    double modulus = 0.0;                ///< k_n h of the pair [Pa]
-    double shear_ratio = 1.0;            ///< k_s/k_n [-]
-    std::optional<double> bond_radius;   ///< parallel and point bonds [m]
+    double modulus = 0.0;                    ///< k_n h of the pair [Pa]
+    double shear_ratio = 1.0;                ///< k_s/k_n [-]
+    std::optional<double> bond_radius;       ///< parallel and point bonds [m]
     std::optional<double> weibull_modulus;
     std::optional<double> weibull_area;  ///< [m^2]; else the mean face of this rule
     bool weibull_scales_energy = true;
     std::optional<double> misorientation_angle;  ///< theta_m [rad]
-    double misorientation_effect = 0.0;  ///< chi [-]
+    double misorientation_effect = 0.0;          ///< chi [-]
 };
 
 /// Bonds on every face that two grains share. `rule_of(a, b)` names the rule of a pair of bodies, nullptr: no bond.

@@ -17,7 +17,8 @@ std::array<Quat, 12> hexagonal_symmetry()
     for (int k = 0; k < 6; ++k) {
         const double angle = k * std::numbers::pi / 3.0;
         s[static_cast<std::size_t>(k)] = from_axis_angle({0, 0, 1}, angle);
-        s[static_cast<std::size_t>(k) + 6] = from_axis_angle({std::cos(0.5 * angle), std::sin(0.5 * angle), 0}, std::numbers::pi);
+        s[static_cast<std::size_t>(k) + 6] =
+            from_axis_angle({std::cos(0.5 * angle), std::sin(0.5 * angle), 0}, std::numbers::pi);
     }
     return s;
 }

@@ -289,7 +289,8 @@ std::vector<LatticeCell> layer_cells(const Cutter& c, const Layer& layer)
             const Site t = ring_of(s, k);
             closed = closed && w.holds(t) && left[w.index(t)];
         }
-        cells.push_back(with_site(closed ? std::move(cell) : open_cell(c, layer, s, left), c.lattice.center(s, layer.number, 0.0)));
+        cells.push_back(
+            with_site(closed ? std::move(cell) : open_cell(c, layer, s, left), c.lattice.center(s, layer.number, 0.0)));
     }
     return cells;
 }

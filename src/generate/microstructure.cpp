@@ -29,10 +29,13 @@ HexagonalPrismSpec prism_spec(const PartSpec& p)
     HexagonalPrismSpec s;
     s.side = p.side;
     s.thickness = p.thickness;
-    s.stacking = p.stacking == "half" ? Stacking::half : (p.stacking == "hollow" || p.stacking == "AB" ? Stacking::hollow : Stacking::columnar);
+    s.stacking = p.stacking == "half"
+                     ? Stacking::half
+                     : (p.stacking == "hollow" || p.stacking == "AB" ? Stacking::hollow : Stacking::columnar);
     s.boundary = p.at_region_boundary == "cut" ? BoundaryMode::cut : BoundaryMode::keep;
-    s.lattice = s.boundary == BoundaryMode::cut ? LatticeMode::fill
-                                                : (p.lattice == "contained" ? LatticeMode::contained : LatticeMode::nominal);
+    s.lattice = s.boundary == BoundaryMode::cut
+                    ? LatticeMode::fill
+                    : (p.lattice == "contained" ? LatticeMode::contained : LatticeMode::nominal);
     s.sliver_fraction = p.sliver_fraction;
     const bool round = p.region.shape == "cylinder" || p.region.shape == "disc";
     s.region.shape = round ? Region::Shape::cylinder : Region::Shape::box;
@@ -45,7 +48,8 @@ HexagonalPrismSpec prism_spec(const PartSpec& p)
     return s;
 }
 
-/// Crystal with a_1 along a vertex direction of the hexagon and c along the prism axis. Vertices lie at 30 deg + 60 deg k.
+/// Crystal with a_1 along a vertex direction of the hexagon and c along the prism axis. Vertices lie at 30 deg + 60 deg
+/// k.
 Quat prism_crystal()
 {
     return from_axis_angle({0, 0, 1}, std::numbers::pi / 6.0);
@@ -59,32 +63,42 @@ std::vector<Quat> read_orientations(const std::string& key, const std::filesyste
     Quat next;
     while (in >> next.w >> next.x >> next.y >> next.z) {
         const double n = std::sqrt(next.w * next.w + next.x * next.x + next.y * next.y + next.z * next.z);
-        if (!(std::fabs(n - 1.0) < 1e-3)) throw InputError(key, fmt::format("line {} of \"{}\" is no unit quaternion", q.size() + 1, file.string()));
+        if (!(std::fabs(n - 1.0) < 1e-3))
+            throw InputError(key, fmt::format("line {} of \"{}\" is no unit quaternion", q.size() + 1, file.string()));
         q.push_back(normalized(next));
     }
-    if (!in.eof()) throw InputError(key, fmt::format("line {} of \"{}\": four numbers w x y z expected", q.size() + 1, file.string()));
+    if (!in.eof())
+        throw InputError(key,
+                         fmt::format("line {} of \"{}\": four numbers w x y z expected", q.size() + 1, file.string()));
     if (q.size() != count) {
-        throw InputError(key, fmt::format("\"{}\" holds {} quaternions, the part has {} grains", file.string(), q.size(), count));
+        throw InputError(
+            key, fmt::format("\"{}\" holds {} quaternions, the part has {} grains", file.string(), q.size(), count));
     }
     return q;
 }
 
-void orient(const Case& c, const PartSpec& part, const std::string& key, std::size_t first, std::vector<GrainSpec>& grains)
+void orient(const Case& c, const PartSpec& part, const std::string& key, std::size_t first,
+            std::vector<GrainSpec>& grains)
 {
     const OrientationSpec& o = part.orientation;
     std::vector<Quat> from_file;
     if (!o.file.empty()) {
-        from_file = read_orientations(key + ".orientation.file", std::filesystem::path(c.file).parent_path() / o.file, grains.size() - first);
+        from_file = read_orientations(key + ".orientation.file", std::filesystem::path(c.file).parent_path() / o.file,
+                                      grains.size() - first);
     }
     for (std::size_t i = first; i < grains.size(); ++i) {
         const auto id = static_cast<std::uint32_t>(i);
         const double u = uniform_random(c.simulation.seed, RandomPurpose::orientation, id);
         Quat& q = grains[i].crystal;
-        if (!o.file.empty()) q = from_file[i - first];
-        else if (o.random == "uniform") q = uniform_rotation(c.simulation.seed, RandomPurpose::orientation, id);
-        else if (o.random == "c-fibre") q = from_axis_angle({0, 0, 1}, u * std::numbers::pi / 3.0) * q;
+        if (!o.file.empty())
+            q = from_file[i - first];
+        else if (o.random == "uniform")
+            q = uniform_rotation(c.simulation.seed, RandomPurpose::orientation, id);
+        else if (o.random == "c-fibre")
+            q = from_axis_angle({0, 0, 1}, u * std::numbers::pi / 3.0) * q;
         else if (!o.choices.empty()) {
-            const auto pick = std::min(static_cast<std::size_t>(u * static_cast<double>(o.choices.size())), o.choices.size() - 1);
+            const auto pick =
+                std::min(static_cast<std::size_t>(u * static_cast<double>(o.choices.size())), o.choices.size() - 1);
             q = from_axis_angle(axis_of(o.about), o.choices[pick]) * q;
         }
     }
@@ -99,7 +113,8 @@ std::vector<GrainSpec> prism_grains(const PartSpec& part, const std::string& key
         throw InputError(key + ".region", e.what());
     }
     double inradius = 0.0;
-    for (const LatticeCell& cell : cells) inradius += inscribed_ball(cell.shape).radius / static_cast<double>(cells.size());
+    for (const LatticeCell& cell : cells)
+        inradius += inscribed_ball(cell.shape).radius / static_cast<double>(cells.size());
     std::vector<GrainSpec> grains;
     for (LatticeCell& cell : cells) {
         GrainSpec g;

@@ -15,7 +15,8 @@ namespace grainfrac {
 std::vector<GrainSpec> generate_grains(const Case& c);
 
 /// Microstructure file (JSON, SI units): per grain its vertices, faces, site, crystal orientation, dilation radius.
-void write_microstructure(const std::filesystem::path& file, const std::vector<GrainSpec>& grains, const std::string& title);
+void write_microstructure(const std::filesystem::path& file, const std::vector<GrainSpec>& grains,
+                          const std::string& title);
 /// Throws std::runtime_error that says what is wrong with the file and where.
 std::vector<GrainSpec> read_microstructure(const std::filesystem::path& file);
 

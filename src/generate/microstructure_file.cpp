@@ -23,7 +23,8 @@ json to_json(const Vec3& a)
 
 double finite_number(const json& j, const char* what)
 {
-    if (!j.is_number() || !std::isfinite(j.get<double>())) throw std::runtime_error(fmt::format("{}: a finite number expected", what));
+    if (!j.is_number() || !std::isfinite(j.get<double>()))
+        throw std::runtime_error(fmt::format("{}: a finite number expected", what));
     return j.get<double>();
 }
 
@@ -45,8 +46,8 @@ GrainSpec grain_from(const json& j)
     g.site = vector_from(j.at("site"), "site");
     const json& q = j.at("crystal");
     if (!q.is_array() || q.size() != 4) throw std::runtime_error("crystal: four numbers w x y z expected");
-    g.crystal = normalized(Quat{finite_number(q[0], "crystal"), finite_number(q[1], "crystal"), finite_number(q[2], "crystal"),
-                                finite_number(q[3], "crystal")});
+    g.crystal = normalized(Quat{finite_number(q[0], "crystal"), finite_number(q[1], "crystal"),
+                                finite_number(q[2], "crystal"), finite_number(q[3], "crystal")});
     g.dilation_radius = finite_number(j.at("dilation_radius"), "dilation_radius");
     if (g.dilation_radius <= 0.0) throw std::runtime_error("dilation_radius: must be > 0 m");
     return g;
@@ -54,7 +55,8 @@ GrainSpec grain_from(const json& j)
 
 }  // namespace
 
-void write_microstructure(const std::filesystem::path& file, const std::vector<GrainSpec>& grains, const std::string& title)
+void write_microstructure(const std::filesystem::path& file, const std::vector<GrainSpec>& grains,
+                          const std::string& title)
 {
     json list = json::array();
     for (const GrainSpec& g : grains) {
@@ -79,11 +81,13 @@ void write_microstructure(const std::filesystem::path& file, const std::vector<G
 std::vector<GrainSpec> read_microstructure(const std::filesystem::path& file)
 {
     std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file)) throw std::runtime_error(fmt::format("cannot read \"{}\"", file.string()));
+    if (!in || std::filesystem::is_directory(file))
+        throw std::runtime_error(fmt::format("cannot read \"{}\"", file.string()));
     std::vector<GrainSpec> grains;
     try {
         const json document = json::parse(in);
-        if (document.at("format") != format_name) throw std::runtime_error(fmt::format("format is not \"{}\"", format_name));
+        if (document.at("format") != format_name)
+            throw std::runtime_error(fmt::format("format is not \"{}\"", format_name));
         for (const json& j : document.at("grains")) {
             try {
                 grains.push_back(grain_from(j));

@@ -150,7 +150,8 @@ GF_FN bool reduce(Simplex& s)
             const Vec3 n = cross(s.corner[f[1]].w - p, s.corner[f[2]].w - p);
             const Vec3 rest = s.corner[f[3]].w - p;
             const double origin_side = -dot(p, n), inner_side = dot(rest, n);
-            const bool is_flat = inner_side * inner_side <= flat_tetrahedron * flat_tetrahedron * norm2(n) * norm2(rest);
+            const bool is_flat =
+                inner_side * inner_side <= flat_tetrahedron * flat_tetrahedron * norm2(n) * norm2(rest);
             if (!is_flat && origin_side * inner_side > 0.0) continue;  // the origin is behind this face
             const Part part = on_triangle(s, f[0], f[1], f[2]);
             if (!outside_any || part.distance2 < best.distance2) best = part;
@@ -168,7 +169,7 @@ GF_FN bool reduce(Simplex& s)
 GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess)
 {
     using gjk_detail::Corner;
-    constexpr int most_rounds = 64;  // a dozen is usual; round-off can make the last rounds cycle
+    constexpr int most_rounds = 64;        // a dozen is usual; round-off can make the last rounds cycle
     constexpr double no_progress = 1e-14;  // relative decrease of the squared distance that counts as progress
     gjk_detail::Simplex s;
     const auto corner = [&](const Vec3& direction) {

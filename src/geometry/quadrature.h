@@ -10,12 +10,20 @@
 namespace grainfrac {
 
 enum class QuadratureRule {
-    automatic,      ///< 4x4 Gauss on quadrilaterals, 7-point fans on other polygons
-    cross,          ///< equimomental cross: centroid +- sqrt(2) rho_k e_k, weights A/4; exact to degree 2
-    fan3,           ///< fan triangles, 3 midside points, shared points merged; degree 2
-    fan7,           ///< fan triangles, vertices 1/20, midsides 2/15, centroid 9/20, shared points merged; degree 3
-    gauss2, gauss3, gauss4, gauss6, gauss8,       ///< tensor Gauss on (bilinear) quadrilaterals; others fall back to fan7
-    lobatto3, lobatto4, lobatto5, lobatto6, lobatto8,
+    automatic,  ///< 4x4 Gauss on quadrilaterals, 7-point fans on other polygons
+    cross,      ///< equimomental cross: centroid +- sqrt(2) rho_k e_k, weights A/4; exact to degree 2
+    fan3,       ///< fan triangles, 3 midside points, shared points merged; degree 2
+    fan7,       ///< fan triangles, vertices 1/20, midsides 2/15, centroid 9/20, shared points merged; degree 3
+    gauss2,
+    gauss3,
+    gauss4,
+    gauss6,
+    gauss8,  ///< tensor Gauss on (bilinear) quadrilaterals; others fall back to fan7
+    lobatto3,
+    lobatto4,
+    lobatto5,
+    lobatto6,
+    lobatto8,
 };
 
 struct QuadraturePoint {
@@ -34,7 +42,8 @@ struct PolygonMoments {
 };
 PolygonMoments polygon_moments(const std::vector<Vec3>& polygon);
 
-/// Points and weights of `rule` on the polygon. Throws std::invalid_argument for fewer than three vertices or zero area.
+/// Points and weights of `rule` on the polygon. Throws std::invalid_argument for fewer than three vertices or zero
+/// area.
 std::vector<QuadraturePoint> quadrature(const std::vector<Vec3>& polygon, QuadratureRule rule);
 
 }  // namespace grainfrac

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An array that lives on the host and, once a device asked for it, there too. Who writes owns the newest copy; the other
-// side is refreshed when it next asks.
+// An array that lives on the host and, once a device asked for it, there too. Who writes owns the newest copy; the
+// other side is refreshed when it next asks.
 #pragma once
 
 #include "gpu/device.h"
@@ -105,9 +105,9 @@ private:
 
     mutable std::vector<T> host_;
     mutable T* device_ = nullptr;
-    mutable std::size_t capacity_ = 0;   // elements allocated on the device
-    mutable bool host_stale_ = false;    // the device wrote last
-    mutable bool device_stale_ = true;   // the host wrote last, or the device never had it
+    mutable std::size_t capacity_ = 0;  // elements allocated on the device
+    mutable bool host_stale_ = false;   // the device wrote last
+    mutable bool device_stale_ = true;  // the host wrote last, or the device never had it
 };
 
 }  // namespace grainfrac

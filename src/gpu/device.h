@@ -17,7 +17,7 @@ struct DeviceError : std::runtime_error {
 
 struct DeviceInfo {
     std::string name;
-    std::size_t memory = 0;  ///< [B]
+    std::size_t memory = 0;      ///< [B]
     int compute_capability = 0;  ///< major * 10 + minor
 };
 

@@ -108,8 +108,8 @@ void write_xml(const std::filesystem::path& path, Data* data)
     vtkNew<Writer> writer;
     writer->AddObserver("ErrorEvent", listener);
     writer->SetInputData(data);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    // Inline, not appended: Debian's ParaView 5.11 with its updated libexpat refuses raw data after the header.
+    writer->SetDataModeToBinary();
     writer->SetCompressorTypeToZLib();
     writer->SetCompressionLevel(1);
     writer->WriteToOutputStringOn();

@@ -17,17 +17,18 @@
 
 namespace grainfrac {
 
-/// One row of history.csv; the csv and the HDF5 table are both made from for_each_column. Counts are visited as integers.
+/// One row of history.csv; the csv and the HDF5 table are both made from for_each_column. Counts are visited as
+/// integers.
 struct HistoryRow {
     std::int64_t step = 0;
-    double time = 0.0;                   ///< [s]
-    double displacement = 0.0;           ///< closing of the platens [m]
-    double load = 0.0;                   ///< magnitude in a compression test [N]
-    double nominal_strain = 0.0;         ///< [-]
-    double nominal_stress = 0.0;         ///< [Pa]
+    double time = 0.0;            ///< [s]
+    double displacement = 0.0;    ///< closing of the platens [m]
+    double load = 0.0;            ///< magnitude in a compression test [N]
+    double nominal_strain = 0.0;  ///< [-]
+    double nominal_stress = 0.0;  ///< [Pa]
     Ledger energy;
     double unbalanced_force_ratio = 0.0;  ///< largest resultant over mean interaction force [-]
-    double platen_imbalance = 0.0;       ///< |F_top - F_bottom| over their mean [-]
+    double platen_imbalance = 0.0;        ///< |F_top - F_bottom| over their mean [-]
     std::int64_t broken_bonds_tension = 0, broken_bonds_shear = 0, split_grains = 0, fragments = 0;
 
     template <class Visit>  // visit(name with unit, value)
@@ -60,21 +61,21 @@ struct HistoryRow {
 
 /// What a snapshot shows beyond the state itself.
 struct SnapshotFields {
-    std::vector<Mat3> stress;            ///< mean Cauchy stress of each body, tension positive; zero for walls [Pa]
-    std::vector<std::int32_t> cluster;   ///< bonded component of each body, -1 for walls; numbered by size, largest 0
+    std::vector<Mat3> stress;           ///< mean Cauchy stress of each body, tension positive; zero for walls [Pa]
+    std::vector<std::int32_t> cluster;  ///< bonded component of each body, -1 for walls; numbered by size, largest 0
 };
 
 /// A face that broke.
 struct CrackFace {
-    std::vector<Vec3> polygon;  ///< where it is now (mean of the two sides) [m]
-    int mode = 0;               ///< 0 intergranular, 1 transgranular
-    int cause = 0;              ///< 0 tension, 1 shear, 2 mixed
-    double time = 0.0;          ///< when its last point failed [s]
-    double first_damage_time = 0.0;  ///< [s]
-    double area = 0.0;          ///< [m^2]
-    Vec3 normal;                ///< from grain_a to grain_b [-]
-    double opening = 0.0;       ///< mean normal jump now [m]
-    double K_I = 0.0, K_II = 0.0;  ///< transgranular only [Pa m^0.5]
+    std::vector<Vec3> polygon;              ///< where it is now (mean of the two sides) [m]
+    int mode = 0;                           ///< 0 intergranular, 1 transgranular
+    int cause = 0;                          ///< 0 tension, 1 shear, 2 mixed
+    double time = 0.0;                      ///< when its last point failed [s]
+    double first_damage_time = 0.0;         ///< [s]
+    double area = 0.0;                      ///< [m^2]
+    Vec3 normal;                            ///< from grain_a to grain_b [-]
+    double opening = 0.0;                   ///< mean normal jump now [m]
+    double K_I = 0.0, K_II = 0.0;           ///< transgranular only [Pa m^0.5]
     std::int32_t grain_a = 0, grain_b = 0;  ///< body ids
 };
 /// Every interface that failed and every broken parallel bond (as a 16-gon), in the order of their times.
@@ -113,7 +114,8 @@ public:
     void write_checkpoint(const Model& model, const State& state);
     /// summary.json (text made by the caller), plots/*, paraview/view.py, bonds/cracks/fragments tables of results.h5.
     /// Throws PlotError, with everything else written, if a plot could not be made; `plots` false: none are made.
-    void finish(const std::string& summary_json, const Model& model, const State& state, const SnapshotFields& fields, bool plots = true);
+    void finish(const std::string& summary_json, const Model& model, const State& state, const SnapshotFields& fields,
+                bool plots = true);
 
 private:
     struct Impl;
@@ -126,9 +128,10 @@ struct Curve {
     std::vector<double> x, y;
 };
 /// Line plot as SVG and PNG (`stem`.svg, `stem`.png), made with PLplot; needs no display.
-void plot_curves(const std::filesystem::path& stem, const std::string& title, const std::string& x_label, const std::string& y_label,
-                 const std::vector<Curve>& curves);
+void plot_curves(const std::filesystem::path& stem, const std::string& title, const std::string& x_label,
+                 const std::string& y_label, const std::vector<Curve>& curves);
 /// Crack map: traces of the cracks in the xy plane coloured by cause over the outline of the grains; SVG and PNG.
-void plot_crack_map(const std::filesystem::path& stem, const Model& model, const State& state, const std::vector<CrackFace>& cracks);
+void plot_crack_map(const std::filesystem::path& stem, const Model& model, const State& state,
+                    const std::vector<CrackFace>& cracks);
 
 }  // namespace grainfrac

@@ -102,7 +102,7 @@ def show_cracks(cracks, view):
 def show_walls(walls, view):
     display = Show(walls, view)
     display.SetRepresentationType("Surface")
-    ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]  # ColorBy(display, None) fails in ParaView 5.11
     display.AmbientColor = display.DiffuseColor = [0.6, 0.6, 0.6]
     display.Opacity = 0.3
 
@@ -148,6 +148,8 @@ def main():
     width, _, height = options.size.partition("x")
     view = GetActiveViewOrCreate("RenderView")
     view.OrientationAxesVisibility = 1
+    if options.save:
+        view.ViewSize = [int(width), int(height)]  # or the text is scaled up with the picture
     try:
         LoadPalette("WhiteBackground")
     except Exception:  # another version has other palettes; the picture is the same but for its background

@@ -16,32 +16,32 @@ struct Vec2 {
 
 /// Grain boundaries, one entry per shared face (physics: total form, no history but damage and slip).
 struct InterfaceBonds {
-    Buffer<std::int32_t> a, b;           ///< bodies
-    Buffer<std::int32_t> law;            ///< into Model::interface_laws
-    Buffer<std::int32_t> point_begin;    ///< first quadrature point; one more entry at the end
-    Buffer<std::int32_t> corner_begin;   ///< first corner of the face polygon; one more entry at the end
-    Buffer<Vec3> normal_a, normal_b;     ///< unit normal from a to b, in the frames of a and b [-]
-    Buffer<Vec3> tangent_a, tangent_b;   ///< first tangent, in the frames of a and b [-]
-    Buffer<double> area;                 ///< [m^2]
-    Buffer<double> diameter;             ///< of the face polygon [m]
-    Buffer<double> normal_stiffness;     ///< k_n per area [Pa/m]
-    Buffer<double> shear_stiffness;      ///< k_s per area [Pa/m]
-    Buffer<double> normal_damping;       ///< c_n per area [Pa s/m]
-    Buffer<double> shear_damping;        ///< c_s per area [Pa s/m]
-    Buffer<double> strength_factor;      ///< scatter: multiplies sigma_c and c [-]
-    Buffer<double> toughness_factor;     ///< scatter: multiplies G_I and G_II [-]
-    Buffer<double> opening_limit;        ///< opening beyond which a dead face is handed to general contact [m]
+    Buffer<std::int32_t> a, b;          ///< bodies
+    Buffer<std::int32_t> law;           ///< into Model::interface_laws
+    Buffer<std::int32_t> point_begin;   ///< first quadrature point; one more entry at the end
+    Buffer<std::int32_t> corner_begin;  ///< first corner of the face polygon; one more entry at the end
+    Buffer<Vec3> normal_a, normal_b;    ///< unit normal from a to b, in the frames of a and b [-]
+    Buffer<Vec3> tangent_a, tangent_b;  ///< first tangent, in the frames of a and b [-]
+    Buffer<double> area;                ///< [m^2]
+    Buffer<double> diameter;            ///< of the face polygon [m]
+    Buffer<double> normal_stiffness;    ///< k_n per area [Pa/m]
+    Buffer<double> shear_stiffness;     ///< k_s per area [Pa/m]
+    Buffer<double> normal_damping;      ///< c_n per area [Pa s/m]
+    Buffer<double> shear_damping;       ///< c_s per area [Pa s/m]
+    Buffer<double> strength_factor;     ///< scatter: multiplies sigma_c and c [-]
+    Buffer<double> toughness_factor;    ///< scatter: multiplies G_I and G_II [-]
+    Buffer<double> opening_limit;       ///< opening beyond which a dead face is handed to general contact [m]
     // state
-    Buffer<std::int32_t> retired;        ///< 1: dead and handed over to general contact
-    Buffer<double> damage;               ///< area mean [-]
-    Buffer<double> stored_energy;        ///< [J]
-    Buffer<double> fracture_work;        ///< dissipated by damage so far [J]
-    Buffer<double> friction_work;        ///< dissipated by slip so far [J]
-    Buffer<double> viscous_work;         ///< dissipated by dashpots so far [J]
-    Buffer<double> shear_share;          ///< integral of mode mix B over damage and area [m^2]
-    Buffer<double> first_damage_time;    ///< -1 before [s]
-    Buffer<double> failure_time;         ///< all points at D = 1; -1 before [s]
-    Buffer<Vec3> viscous_force;          ///< on a, of the last evaluation, for the energy account [N]
+    Buffer<std::int32_t> retired;                     ///< 1: dead and handed over to general contact
+    Buffer<double> damage;                            ///< area mean [-]
+    Buffer<double> stored_energy;                     ///< [J]
+    Buffer<double> fracture_work;                     ///< dissipated by damage so far [J]
+    Buffer<double> friction_work;                     ///< dissipated by slip so far [J]
+    Buffer<double> viscous_work;                      ///< dissipated by dashpots so far [J]
+    Buffer<double> shear_share;                       ///< integral of mode mix B over damage and area [m^2]
+    Buffer<double> first_damage_time;                 ///< -1 before [s]
+    Buffer<double> failure_time;                      ///< all points at D = 1; -1 before [s]
+    Buffer<Vec3> viscous_force;                       ///< on a, of the last evaluation, for the energy account [N]
     Buffer<Vec3> viscous_torque_a, viscous_torque_b;  ///< [N m]
 
     int size() const { return a.size(); }
@@ -87,10 +87,10 @@ struct InterfacePoints {
     Buffer<Vec3> position_a, position_b;  ///< in the frames of a and b; equal in space at creation [m]
     Buffer<double> weight;                ///< A_q [m^2]
     // state
-    Buffer<double> damage;                ///< D [-]
-    Buffer<double> onset;                 ///< lambda_0, energy norm at onset; 0 before [sqrt(J)/m]
-    Buffer<double> failure;               ///< lambda_f [sqrt(J)/m]
-    Buffer<Vec2> slip;                    ///< delta_sl on the mean reference tangents [m]
+    Buffer<double> damage;   ///< D [-]
+    Buffer<double> onset;    ///< lambda_0, energy norm at onset; 0 before [sqrt(J)/m]
+    Buffer<double> failure;  ///< lambda_f [sqrt(J)/m]
+    Buffer<Vec2> slip;       ///< delta_sl on the mean reference tangents [m]
 
     int size() const { return weight.size(); }
 
@@ -135,15 +135,15 @@ struct ParallelBonds {
     Buffer<double> shear_damping;         ///< c_s [N s/m]
     Buffer<double> strength_factor;       ///< [-]
     // state
-    Buffer<Vec3> force;                   ///< on a, elastic, world frame [N]
-    Buffer<Vec3> moment;                  ///< on a, elastic, world frame [N m]
-    Buffer<Vec3> normal;                  ///< of the last evaluation, world frame [-]
-    Buffer<std::int32_t> cause;           ///< 0 whole, 1 broke in tension, 2 in shear
-    Buffer<double> stored_energy;         ///< [J]
-    Buffer<double> fracture_work;         ///< [J]
-    Buffer<double> viscous_work;          ///< [J]
-    Buffer<double> failure_time;          ///< -1 before [s]
-    Buffer<Vec3> viscous_force;           ///< on a, of the last evaluation [N]
+    Buffer<Vec3> force;            ///< on a, elastic, world frame [N]
+    Buffer<Vec3> moment;           ///< on a, elastic, world frame [N m]
+    Buffer<Vec3> normal;           ///< of the last evaluation, world frame [-]
+    Buffer<std::int32_t> cause;    ///< 0 whole, 1 broke in tension, 2 in shear
+    Buffer<double> stored_energy;  ///< [J]
+    Buffer<double> fracture_work;  ///< [J]
+    Buffer<double> viscous_work;   ///< [J]
+    Buffer<double> failure_time;   ///< -1 before [s]
+    Buffer<Vec3> viscous_force;    ///< on a, of the last evaluation [N]
 
     int size() const { return a.size(); }
 

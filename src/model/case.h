@@ -50,72 +50,73 @@ struct PartSpec {
     std::string kind = "grains";  ///< grains
     std::string material;
     std::string generator = "hexagonal_prisms";  ///< hexagonal_prisms | file
-    std::string file;                      ///< generator = "file": a microstructure written by `grainfrac generate`
-    double side = 0.0;                     ///< [m]
-    double thickness = 0.0;                ///< [m]
-    std::string stacking = "columnar";     ///< columnar (AA) | half | hollow (AB)
-    std::string lattice = "nominal";       ///< nominal | contained
+    std::string file;                       ///< generator = "file": a microstructure written by `grainfrac generate`
+    double side = 0.0;                      ///< [m]
+    double thickness = 0.0;                 ///< [m]
+    std::string stacking = "columnar";      ///< columnar (AA) | half | hollow (AB)
+    std::string lattice = "nominal";        ///< nominal | contained
     std::optional<double> dilation_radius;  ///< [m]; auto: 0.04 of the mean inradius
-    double sliver_fraction = 0.05;         ///< [-]
+    double sliver_fraction = 0.05;          ///< [-]
     RegionSpec region;
     std::string at_region_boundary = "keep";  ///< keep | cut
     OrientationSpec orientation;
-    Vec3 velocity;                         ///< initial [m/s]
-    Vec3 angular_velocity;                 ///< initial, of each grain about its own centre [rad/s]
+    Vec3 velocity;          ///< initial [m/s]
+    Vec3 angular_velocity;  ///< initial, of each grain about its own centre [rad/s]
 };
 
 struct BondSpec {
     std::array<std::string, 2> between{"*", "*"};
-    std::string law = "interface";          ///< interface | parallel | point
+    std::string law = "interface";           ///< interface | parallel | point
     std::optional<double> normal_stiffness;  ///< [Pa/m]; auto: from elasticity and the distance of the centres
-    std::optional<double> shear_ratio;      ///< k_s/k_n [-]; auto: from `elasticity`
-    std::string elasticity = "homogeneous";  ///< homogeneous (nu = 0) | plane (honeycomb) | solid (isotropic 3-D): rule of `auto`
-    std::string failure = "point";          ///< unbreakable | point (each point) | face (whole face at its worst corner)
-    std::string softening = "bilinear";     ///< brittle | bilinear
-    std::string onset = "mohr_coulomb";     ///< mohr_coulomb | quadratic
-    double tensile_strength = 0.0;          ///< [Pa]
-    double cohesion = 0.0;                  ///< [Pa]
-    double friction = 0.0;                  ///< tan(phi) of the onset surface [-]
-    std::optional<double> residual_friction;  ///< mu_r of broken points [-]; default: friction
-    double fracture_energy_I = 0.0;         ///< [J/m^2]
-    double fracture_energy_II = 0.0;        ///< [J/m^2]
-    std::string mixed_mode = "bk";          ///< bk (Benzeggagh-Kenane) | power
-    double mixed_mode_exponent = 2.0;       ///< eta or alpha [-]
-    std::string quadrature = "auto";        ///< auto, cross, fan3, fan7, gauss2.., lobatto3..
-    double damping = 0.05;                  ///< zeta, fraction of critical [-]
-    std::optional<double> weibull_modulus;   ///< m [-]
-    std::optional<double> weibull_area;      ///< A_0 [m^2]; default: mean face
-    bool weibull_scales_energy = true;      ///< G_c by the factor squared (constant process zone)
+    std::optional<double> shear_ratio;       ///< k_s/k_n [-]; auto: from `elasticity`
+    std::string elasticity =
+        "homogeneous";  ///< homogeneous (nu = 0) | plane (honeycomb) | solid (isotropic 3-D): rule of `auto`
+    std::string failure = "point";       ///< unbreakable | point (each point) | face (whole face at its worst corner)
+    std::string softening = "bilinear";  ///< brittle | bilinear
+    std::string onset = "mohr_coulomb";  ///< mohr_coulomb | quadratic
+    double tensile_strength = 0.0;       ///< [Pa]
+    double cohesion = 0.0;               ///< [Pa]
+    double friction = 0.0;               ///< tan(phi) of the onset surface [-]
+    std::optional<double> residual_friction;     ///< mu_r of broken points [-]; default: friction
+    double fracture_energy_I = 0.0;              ///< [J/m^2]
+    double fracture_energy_II = 0.0;             ///< [J/m^2]
+    std::string mixed_mode = "bk";               ///< bk (Benzeggagh-Kenane) | power
+    double mixed_mode_exponent = 2.0;            ///< eta or alpha [-]
+    std::string quadrature = "auto";             ///< auto, cross, fan3, fan7, gauss2.., lobatto3..
+    double damping = 0.05;                       ///< zeta, fraction of critical [-]
+    std::optional<double> weibull_modulus;       ///< m [-]
+    std::optional<double> weibull_area;          ///< A_0 [m^2]; default: mean face
+    bool weibull_scales_energy = true;           ///< G_c by the factor squared (constant process zone)
     std::optional<double> misorientation_angle;  ///< theta_m of Read-Shockley [rad]
-    double misorientation_effect = 0.3;     ///< chi [-]
-    double moment_contribution = 1.0;       ///< parallel, point: beta [-]
-    std::optional<double> bond_radius;      ///< parallel: circle of equal area; point: dilation radius [m]
+    double misorientation_effect = 0.3;          ///< chi [-]
+    double moment_contribution = 1.0;            ///< parallel, point: beta [-]
+    std::optional<double> bond_radius;           ///< parallel: circle of equal area; point: dilation radius [m]
 };
 
 struct ContactSpec {
     std::array<std::string, 2> between{"*", "*"};
     std::string law = "linear";
     std::optional<double> normal_stiffness;  ///< area stiffness k_c [Pa/m]; auto: E/h, ten times that against walls
-    double shear_ratio = 0.4;               ///< [-]
-    double friction = 0.3;                  ///< [-]
+    double shear_ratio = 0.4;                ///< [-]
+    double friction = 0.3;                   ///< [-]
     std::string dissipation = "hysteretic";  ///< hysteretic (unload factor 1/e^2) | viscous | none
-    double restitution = 1.0;               ///< e [-]
-    double rolling_friction = 0.0;          ///< mu_r, single-point contacts [-]
-    std::optional<double> reference_area;   ///< A_ref of point contacts [m^2]; auto: a quarter of the smaller face
+    double restitution = 1.0;                ///< e [-]
+    double rolling_friction = 0.0;           ///< mu_r, single-point contacts [-]
+    std::optional<double> reference_area;    ///< A_ref of point contacts [m^2]; auto: a quarter of the smaller face
 };
 
 struct WallSpec {
     std::string name;
-    std::string shape = "plate";  ///< plate | cylinder | sphere
-    Vec3 center;                  ///< plate: centre of its loaded face; others: centre [m]
-    Vec3 normal{0, 1, 0};         ///< plate: points to the specimen [-]
-    Vec3 axis{0, 0, 1};           ///< cylinder [-]
+    std::string shape = "plate";       ///< plate | cylinder | sphere
+    Vec3 center;                       ///< plate: centre of its loaded face; others: centre [m]
+    Vec3 normal{0, 1, 0};              ///< plate: points to the specimen [-]
+    Vec3 axis{0, 0, 1};                ///< cylinder [-]
     std::array<double, 2> size{0, 0};  ///< plate: extents along its two in-plane directions [m]
-    double thickness = 0.0;       ///< plate; 0: a tenth of the larger extent [m]
-    double radius = 0.0;          ///< cylinder, sphere [m]
-    double length = 0.0;          ///< cylinder [m]
-    Vec3 velocity;                ///< [m/s]
-    double ramp = 0.0;            ///< time over which the speed rises smoothly [s]
+    double thickness = 0.0;            ///< plate; 0: a tenth of the larger extent [m]
+    double radius = 0.0;               ///< cylinder, sphere [m]
+    double length = 0.0;               ///< cylinder [m]
+    Vec3 velocity;                     ///< [m/s]
+    double ramp = 0.0;                 ///< time over which the speed rises smoothly [s]
 };
 
 struct StageMotion {
@@ -124,14 +125,14 @@ struct StageMotion {
 };
 struct StageSpec {
     std::string name;
-    std::vector<StageMotion> motions;   ///< walls that are not named stand still
-    double ramp = 0.0;                  ///< [s]
-    double local_damping = 0.0;         ///< [-]
-    bool fracture = true;               ///< bonds may break in this stage
-    std::optional<double> duration;     ///< [s]
+    std::vector<StageMotion> motions;              ///< walls that are not named stand still
+    double ramp = 0.0;                             ///< [s]
+    double local_damping = 0.0;                    ///< [-]
+    bool fracture = true;                          ///< bonds may break in this stage
+    std::optional<double> duration;                ///< [s]
     std::optional<double> unbalanced_force_ratio;  ///< ends below this [-]
-    std::optional<double> load_drop;    ///< ends when the load fell by this share of its peak [-]
-    std::optional<double> max_displacement;  ///< of the first moving wall [m]
+    std::optional<double> load_drop;               ///< ends when the load fell by this share of its peak [-]
+    std::optional<double> max_displacement;        ///< of the first moving wall [m]
 };
 
 struct StopSpec {
@@ -140,30 +141,30 @@ struct StopSpec {
     std::optional<double> time;       ///< [s]
 };
 struct TestSpec {
-    std::string kind = "custom";       ///< brazilian | custom
-    double platen_speed = 0.0;         ///< closing speed of the two platens together [m/s]
-    std::string platen = "flat";       ///< flat | curved
-    double platen_radius = 0.0;        ///< curved; 0: 1.5 specimen radii (ISRM) [m]
+    std::string kind = "custom";               ///< brazilian | custom
+    double platen_speed = 0.0;                 ///< closing speed of the two platens together [m/s]
+    std::string platen = "flat";               ///< flat | curved
+    double platen_radius = 0.0;                ///< curved; 0: 1.5 specimen radii (ISRM) [m]
     std::optional<double> contact_half_width;  ///< flat: half width of the platen [m]; auto: 0.05 of the diameter
-    std::string direction = "y";       ///< loading axis: x | y
-    std::optional<double> ramp;        ///< [s]; auto: 10 D/c0
+    std::string direction = "y";               ///< loading axis: x | y
+    std::optional<double> ramp;                ///< [s]; auto: 10 D/c0
     StopSpec stop;
 };
 
 struct ControlSpec {
-    double time_step_safety = 0.8;      ///< [-]
-    std::optional<double> time_step;    ///< [s]
-    double local_damping = 0.0;         ///< alpha [-]
-    Vec3 gravity;                       ///< [m/s^2]
-    std::optional<double> skin;         ///< of the neighbour list [m]; auto
+    double time_step_safety = 0.8;    ///< [-]
+    std::optional<double> time_step;  ///< [s]
+    double local_damping = 0.0;       ///< alpha [-]
+    Vec3 gravity;                     ///< [m/s^2]
+    std::optional<double> skin;       ///< of the neighbour list [m]; auto
 };
 
 struct OutputSpec {
-    std::optional<double> every;      ///< snapshots [s]
+    std::optional<double> every;            ///< snapshots [s]
     std::optional<std::int64_t> snapshots;  ///< or their number (needs stop.time or a stage duration)
-    std::optional<double> history;    ///< [s]; auto: 1/1000 of the run or 100 steps
-    double checkpoint = 60.0;         ///< wall time; 0: never [s]
-    bool contacts = true;             ///< write paraview/contacts.pvd
+    std::optional<double> history;          ///< [s]; auto: 1/1000 of the run or 100 steps
+    double checkpoint = 60.0;               ///< wall time; 0: never [s]
+    bool contacts = true;                   ///< write paraview/contacts.pvd
 };
 
 /// Where a key stands in the input file, for messages about it.
@@ -185,7 +186,7 @@ struct Case {
     ControlSpec control;
     OutputSpec output;
 
-    std::string file;                          ///< path of the input file as typed
+    std::string file;                           ///< path of the input file as typed
     std::map<std::string, SourcePlace> places;  ///< "materials.sic.density", "parts[0].region.diameter" -> where
 };
 
@@ -195,10 +196,14 @@ struct InputProblem {
     std::string message;  ///< what is wrong and what is allowed, e.g. "must be > 0 m"
 };
 struct InputError : std::runtime_error {
-    explicit InputError(std::vector<InputProblem> p) : std::runtime_error(p.empty() ? "" : p.front().message), problems(std::move(p))
+    explicit InputError(std::vector<InputProblem> p)
+        : std::runtime_error(p.empty() ? "" : p.front().message), problems(std::move(p))
     {
     }
-    InputError(std::string key, std::string message) : InputError(std::vector<InputProblem>{{std::move(key), std::move(message)}}) {}
+    InputError(std::string key, std::string message)
+        : InputError(std::vector<InputProblem>{{std::move(key), std::move(message)}})
+    {
+    }
     std::vector<InputProblem> problems;
 };
 

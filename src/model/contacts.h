@@ -11,35 +11,36 @@ namespace grainfrac {
 
 /// Geometry of one contact, found anew every step: the resultant of its manifold.
 struct ContactPoint {
-    Vec3 normal;                 ///< unit, from a to b; zero if the bodies are apart [-]
-    Vec3 position;               ///< centre of pressure [m]
-    double overlap_volume = 0.0; ///< integral of the penetration over the manifold [m^3]
-    double overlap_square = 0.0; ///< integral of half its square [m^4]
-    double area = 0.0;           ///< of the manifold, reference area for points and lines [m^2]
-    double twist_radius = 0.0;   ///< radius of the circle of equal area; 0 for points and lines [m]
-    double depth = 0.0;          ///< largest penetration [m]
+    Vec3 normal;                  ///< unit, from a to b; zero if the bodies are apart [-]
+    Vec3 position;                ///< centre of pressure [m]
+    double overlap_volume = 0.0;  ///< integral of the penetration over the manifold [m^3]
+    double overlap_square = 0.0;  ///< integral of half its square [m^4]
+    double area = 0.0;            ///< of the manifold, reference area for points and lines [m^2]
+    double twist_radius = 0.0;    ///< radius of the circle of equal area; 0 for points and lines [m]
+    double depth = 0.0;           ///< largest penetration [m]
 };
 
 struct Contacts {
-    Buffer<std::int32_t> a, b;          ///< bodies
-    Buffer<std::int32_t> law;           ///< into Model::contact_laws
-    Buffer<std::int32_t> bond_slot;     ///< first slot of the bonds between a and b; they suppress the contact till retired
-    Buffer<std::int32_t> bond_count;    ///< how many
-    Buffer<ContactPoint> point;         ///< derived
+    Buffer<std::int32_t> a, b;  ///< bodies
+    Buffer<std::int32_t> law;   ///< into Model::contact_laws
+    Buffer<std::int32_t>
+        bond_slot;  ///< first slot of the bonds between a and b; they suppress the contact till retired
+    Buffer<std::int32_t> bond_count;  ///< how many
+    Buffer<ContactPoint> point;       ///< derived
     // state
-    Buffer<std::int32_t> active;        ///< 1 while in contact, after any hand-over
-    Buffer<Vec3> shear_force;           ///< F_t on a, world frame [N]
-    Buffer<Vec3> normal;                ///< of the last evaluation [-]
-    Buffer<double> twist_moment;        ///< about the normal, on a [N m]
-    Buffer<double> max_overlap;         ///< largest mean penetration of this contact's life [m]
-    Buffer<double> offset_force;        ///< taken off so that a hand-over makes no force [N]
-    Buffer<double> stiffness_scale;     ///< multiplies k_c for the life of a handed-over contact [-]
-    Buffer<double> viscous_force;       ///< along the normal, of the last evaluation [N]
-    Buffer<double> normal_force;        ///< of the last evaluation, for output [N]
-    Buffer<double> stored_energy;       ///< [J]
-    Buffer<double> friction_work;       ///< [J]
-    Buffer<double> viscous_work;        ///< [J]
-    Buffer<double> hysteresis_work;     ///< [J]
+    Buffer<std::int32_t> active;     ///< 1 while in contact, after any hand-over
+    Buffer<Vec3> shear_force;        ///< F_t on a, world frame [N]
+    Buffer<Vec3> normal;             ///< of the last evaluation [-]
+    Buffer<double> twist_moment;     ///< about the normal, on a [N m]
+    Buffer<double> max_overlap;      ///< largest mean penetration of this contact's life [m]
+    Buffer<double> offset_force;     ///< taken off so that a hand-over makes no force [N]
+    Buffer<double> stiffness_scale;  ///< multiplies k_c for the life of a handed-over contact [-]
+    Buffer<double> viscous_force;    ///< along the normal, of the last evaluation [N]
+    Buffer<double> normal_force;     ///< of the last evaluation, for output [N]
+    Buffer<double> stored_energy;    ///< [J]
+    Buffer<double> friction_work;    ///< [J]
+    Buffer<double> viscous_work;     ///< [J]
+    Buffer<double> hysteresis_work;  ///< [J]
 
     int size() const { return a.size(); }
 

@@ -29,10 +29,10 @@ struct Group {
 
 /// A driven body or several that move as one. Speed rises over `ramp` as s^3 (10 - 15 s + 6 s^2) from `from_velocity`.
 struct WallMotion {
-    Vec3 from_velocity;   ///< [m/s]
-    Vec3 velocity;        ///< [m/s]
-    double start = 0.0;   ///< [s]
-    double ramp = 0.0;    ///< [s]
+    Vec3 from_velocity;  ///< [m/s]
+    Vec3 velocity;       ///< [m/s]
+    double start = 0.0;  ///< [s]
+    double ramp = 0.0;   ///< [s]
 
     GF_FN Vec3 at(double time) const
     {
@@ -45,19 +45,19 @@ struct WallMotion {
 struct Model {
     std::vector<Material> materials;
     std::vector<Group> groups;
-    std::vector<std::string> walls;          ///< names; Bodies::wall points here
-    Buffer<WallMotion> wall_motion;          ///< one per wall, set by the stage
+    std::vector<std::string> walls;  ///< names; Bodies::wall points here
+    Buffer<WallMotion> wall_motion;  ///< one per wall, set by the stage
     Shapes shapes;
-    std::vector<Polyhedron> grain_shapes;    ///< sharp polyhedron of each body id in its body frame; empty for walls
+    std::vector<Polyhedron> grain_shapes;  ///< sharp polyhedron of each body id in its body frame; empty for walls
     Buffer<InterfaceLaw> interface_laws;
     Buffer<ParallelLaw> parallel_laws;
     Buffer<LinearContact> contact_laws;
     std::vector<std::int32_t> contact_law_of;  ///< group x group -> contact law, row by row
-    Vec3 gravity;                            ///< [m/s^2]
-    double local_damping = 0.0;              ///< alpha [-]
-    bool fracture_active = true;             ///< bonds may break in this stage
-    double skin = 0.0;                       ///< of the neighbour list [m]
-    double nominal_length = 0.0;             ///< mean grain spacing, for scales and tolerances [m]
+    Vec3 gravity;                              ///< [m/s^2]
+    double local_damping = 0.0;                ///< alpha [-]
+    bool fracture_active = true;               ///< bonds may break in this stage
+    double skin = 0.0;                         ///< of the neighbour list [m]
+    double nominal_length = 0.0;               ///< mean grain spacing, for scales and tolerances [m]
     Device device = Device::cpu;
 };
 

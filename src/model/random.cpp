@@ -2,16 +2,17 @@
 #include "model/random.h"
 
 #include <Random123/philox.h>
-
 #include <cmath>
 #include <numbers>
 
 namespace grainfrac {
 
-double uniform_random(std::int64_t seed, RandomPurpose purpose, std::uint32_t entity_a, std::uint32_t entity_b, int draw)
+double uniform_random(std::int64_t seed, RandomPurpose purpose, std::uint32_t entity_a, std::uint32_t entity_b,
+                      int draw)
 {
     const auto key = static_cast<std::uint64_t>(seed);
-    const r123::Philox4x32::ctr_type counter{{entity_a, entity_b, static_cast<std::uint32_t>(purpose), static_cast<std::uint32_t>(draw)}};
+    const r123::Philox4x32::ctr_type counter{
+        {entity_a, entity_b, static_cast<std::uint32_t>(purpose), static_cast<std::uint32_t>(draw)}};
     const r123::Philox4x32::key_type k{{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)}};
     const auto bits = r123::Philox4x32{}(counter, k);
     const std::uint64_t mantissa = ((static_cast<std::uint64_t>(bits[0]) << 32U) | bits[1]) >> 12U;  // 52 bits

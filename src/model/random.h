@@ -12,7 +12,8 @@ namespace grainfrac {
 enum class RandomPurpose : std::uint32_t { orientation = 1, strength = 2, test = 3 };
 
 /// Uniform in (0, 1), never 0 or 1. `draw` numbers several draws of one entity.
-double uniform_random(std::int64_t seed, RandomPurpose purpose, std::uint32_t entity_a, std::uint32_t entity_b = 0, int draw = 0);
+double uniform_random(std::int64_t seed, RandomPurpose purpose, std::uint32_t entity_a, std::uint32_t entity_b = 0,
+                      int draw = 0);
 
 /// Rotation uniform on SO(3) (Shoemake 1992).
 Quat uniform_rotation(std::int64_t seed, RandomPurpose purpose, std::uint32_t entity);

@@ -53,7 +53,8 @@ int add_shape(Shapes& shapes, const Polyhedron& core, double radius)
     for (const auto& [from, to] : edges) shapes.edges.host().push_back({from, to});
     auto& vertices = shapes.vertices.host();
     vertices.insert(vertices.end(), core.vertices.begin(), core.vertices.end());
-    // A quarter of the mean face: the smallest one of a cut grain may be next to nothing, and contacts with it too soft.
+    // A quarter of the mean face: the smallest one of a cut grain may be next to nothing, and contacts with it too
+    // soft.
     const double mean_face = core.faces.empty() ? 0.0 : faces_area / static_cast<double>(core.faces.size());
     return close_shape(shapes, radius, 0.25 * mean_face, reach + radius);
 }
@@ -76,9 +77,10 @@ int add_cylinder_shape(Shapes& shapes, const Vec3& axis, double length, double r
 
 ShapesView view(const Shapes& s, Device device)
 {
-    return {s.radius.read(device),       s.bounding_radius.read(device), s.point_area.read(device),   s.vertex_begin.read(device),
-            s.edge_begin.read(device),   s.face_begin.read(device),      s.vertices.read(device),     s.edges.read(device),
-            s.face_normals.read(device), s.face_offsets.read(device),    s.loop_begin.read(device),   s.loops.read(device)};
+    return {s.radius.read(device),       s.bounding_radius.read(device), s.point_area.read(device),
+            s.vertex_begin.read(device), s.edge_begin.read(device),      s.face_begin.read(device),
+            s.vertices.read(device),     s.edges.read(device),           s.face_normals.read(device),
+            s.face_offsets.read(device), s.loop_begin.read(device),      s.loops.read(device)};
 }
 
 }  // namespace grainfrac

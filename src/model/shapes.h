@@ -15,19 +15,19 @@ struct Edge {
     std::int32_t from = 0, to = 0;  ///< vertex indices within the shape
 };
 
-/// All shapes, end to end; shape s owns the entries [begin[s], begin[s+1]) of each kind. Positions are in the body frame
-/// (origin at the centre of mass, principal axes).
+/// All shapes, end to end; shape s owns the entries [begin[s], begin[s+1]) of each kind. Positions are in the body
+/// frame (origin at the centre of mass, principal axes).
 struct Shapes {
-    Buffer<double> radius;                 ///< dilation radius rho [m]
-    Buffer<double> bounding_radius;        ///< of the dilated body about its centre of mass [m]
-    Buffer<double> point_area;             ///< reference area of point contacts; 0 where the shape has no face [m^2]
+    Buffer<double> radius;           ///< dilation radius rho [m]
+    Buffer<double> bounding_radius;  ///< of the dilated body about its centre of mass [m]
+    Buffer<double> point_area;       ///< reference area of point contacts; 0 where the shape has no face [m^2]
     Buffer<std::int32_t> vertex_begin, edge_begin, face_begin;
-    Buffer<Vec3> vertices;                 ///< [m]
+    Buffer<Vec3> vertices;  ///< [m]
     Buffer<Edge> edges;
-    Buffer<Vec3> face_normals;             ///< unit outward [-]
-    Buffer<double> face_offsets;           ///< of the core's faces [m]
-    Buffer<std::int32_t> loop_begin;       ///< per face, into loops; one more entry at the end
-    Buffer<std::int32_t> loops;            ///< vertex indices within the shape, counter-clockwise from outside
+    Buffer<Vec3> face_normals;        ///< unit outward [-]
+    Buffer<double> face_offsets;      ///< of the core's faces [m]
+    Buffer<std::int32_t> loop_begin;  ///< per face, into loops; one more entry at the end
+    Buffer<std::int32_t> loops;       ///< vertex indices within the shape, counter-clockwise from outside
 
     int size() const { return radius.size(); }
 

@@ -12,11 +12,11 @@ namespace grainfrac {
 
 /// What an interaction does to its two bodies. Slots: interfaces first, then parallel bonds, then contacts.
 struct Slots {
-    Buffer<Vec3> force;      ///< on b; a gets the opposite [N]
-    Buffer<Vec3> torque_a;   ///< about the centre of a [N m]
-    Buffer<Vec3> torque_b;   ///< about the centre of b [N m]
-    Buffer<Mat3> dyad_a;     ///< sum of d (x) f about the centre of a; empty unless this step was asked for stresses [N m]
-    Buffer<Mat3> dyad_b;     ///< the same for b [N m]
+    Buffer<Vec3> force;     ///< on b; a gets the opposite [N]
+    Buffer<Vec3> torque_a;  ///< about the centre of a [N m]
+    Buffer<Vec3> torque_b;  ///< about the centre of b [N m]
+    Buffer<Mat3> dyad_a;  ///< sum of d (x) f about the centre of a; empty unless this step was asked for stresses [N m]
+    Buffer<Mat3> dyad_b;  ///< the same for b [N m]
 
     int size() const { return force.size(); }
     void resize(int n)
@@ -48,9 +48,9 @@ struct State {
     Slots slots;
     Incidence incidence;
     PastContacts past_contacts;
-    double travel = 0.0;  ///< farthest any surface point may have moved since the neighbour list was made [m]
+    double travel = 0.0;          ///< farthest any surface point may have moved since the neighbour list was made [m]
     double initial_energy = 0.0;  ///< E_0 of the ledger [J]
-    double time = 0.0;    ///< [s]
+    double time = 0.0;            ///< [s]
     std::int64_t step = 0;
 
     int bond_slots() const { return interfaces.size() + parallels.size(); }

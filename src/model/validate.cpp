@@ -27,9 +27,11 @@ std::string bodies_problem(const Model& model, const Bodies& b)
         if (!finite(b.velocity[i])) return problem("velocity is not finite");
         if (!finite(b.force[i]) || !finite(b.torque[i])) return problem("force or torque is not finite");
         if (!finite(b.angular_momentum[i])) return problem("angular momentum is not finite");
-        if (!(std::fabs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < unit_tolerance)) return problem("orientation is not of unit length");
+        if (!(std::fabs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < unit_tolerance))
+            return problem("orientation is not of unit length");
         if (b.shape[i] < 0 || b.shape[i] >= model.shapes.size()) return problem("has no shape");
-        if (b.group[i] < 0 || b.group[i] >= static_cast<int>(model.groups.size())) return problem("belongs to no part or wall");
+        if (b.group[i] < 0 || b.group[i] >= static_cast<int>(model.groups.size()))
+            return problem("belongs to no part or wall");
         if (b.inverse_mass[i] > 0.0 && !(b.mass[i] > 0.0)) return problem("has no mass");
     }
     return {};
@@ -41,7 +43,8 @@ std::string bonds_problem(const char* kind, const Bonds& bonds, int bodies)
     for (int i = 0; i < bonds.size(); ++i) {
         const int a = bonds.a[i], b = bonds.b[i];
         if (a < 0 || b <= a || b >= bodies) return fmt::format("{} {}: bodies {} and {} are no pair", kind, i, a, b);
-        if (i > 0 && (bonds.a[i - 1] > a || (bonds.a[i - 1] == a && bonds.b[i - 1] > b))) return fmt::format("{} {}: not sorted", kind, i);
+        if (i > 0 && (bonds.a[i - 1] > a || (bonds.a[i - 1] == a && bonds.b[i - 1] > b)))
+            return fmt::format("{} {}: not sorted", kind, i);
         if (!std::isfinite(bonds.stored_energy[i])) return fmt::format("{} {}: energy is not finite", kind, i);
     }
     return {};
@@ -73,7 +76,8 @@ std::string why_not_valid(const Model& model, const State& state)
     if (auto why = bonds_problem("interface", state.interfaces, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
     for (int q = 0; q < state.points.size(); ++q) {
-        if (!(state.points.damage[q] >= 0.0 && state.points.damage[q] <= 1.0)) return fmt::format("interface point {}: damage out of [0, 1]", q);
+        if (!(state.points.damage[q] >= 0.0 && state.points.damage[q] <= 1.0))
+            return fmt::format("interface point {}: damage out of [0, 1]", q);
     }
     return {};
 }

@@ -14,8 +14,8 @@ struct MotionView {
 };
 inline MotionView motion_view(const Bodies& b, Device device)
 {
-    return {b.position.read(device), b.velocity.read(device), b.angular_velocity.read(device), b.orientation.read(device),
-            b.inverse_mass.read(device)};
+    return {b.position.read(device), b.velocity.read(device), b.angular_velocity.read(device),
+            b.orientation.read(device), b.inverse_mass.read(device)};
 }
 
 /// Where an interaction writes what it does; `dyad_*` are empty views unless stresses are wanted.
@@ -25,7 +25,8 @@ struct SlotsView {
 };
 inline SlotsView slots_view(Slots& s, Device device)
 {
-    return {s.force.write(device), s.torque_a.write(device), s.torque_b.write(device), s.dyad_a.write(device), s.dyad_b.write(device)};
+    return {s.force.write(device), s.torque_a.write(device), s.torque_b.write(device), s.dyad_a.write(device),
+            s.dyad_b.write(device)};
 }
 
 /// 1/(1/m_a + 1/m_b); 0 if both are driven [kg].

@@ -36,7 +36,8 @@ struct KineticEnergy {
 
 double Ledger::relative_error() const
 {
-    const double scale = std::max({std::fabs(external), std::fabs(gravity), kinetic, elastic_bonds + elastic_contacts, initial});
+    const double scale =
+        std::max({std::fabs(external), std::fabs(gravity), kinetic, elastic_bonds + elastic_contacts, initial});
     return scale > 0.0 ? std::fabs(residual()) / scale : 0.0;
 }
 
@@ -50,8 +51,8 @@ Ledger energy_ledger(const Model& model, const State& state)
     const PastContacts& past = state.past_contacts;
     Ledger e;
     e.kinetic = parallel_sum(d, b.size(),
-                             KineticEnergy{b.velocity.read(d), b.angular_momentum.read(d), b.inverse_inertia.read(d), b.mass.read(d),
-                                           b.inverse_mass.read(d)});
+                             KineticEnergy{b.velocity.read(d), b.angular_momentum.read(d), b.inverse_inertia.read(d),
+                                           b.mass.read(d), b.inverse_mass.read(d)});
     e.elastic_bonds = total(d, i.stored_energy) + total(d, p.stored_energy);
     e.elastic_contacts = total(d, c.stored_energy);
     e.fracture = total(d, i.fracture_work) + total(d, p.fracture_work);

@@ -8,21 +8,22 @@
 namespace grainfrac {
 
 struct Ledger {
-    double kinetic = 0.0;            ///< E_kin [J]
-    double elastic_bonds = 0.0;      ///< U of interfaces and parallel bonds [J]
-    double elastic_contacts = 0.0;   ///< U of contacts [J]
-    double fracture = 0.0;           ///< D_frac [J]
-    double friction = 0.0;           ///< D_fric, broken interfaces and contacts [J]
-    double damping = 0.0;            ///< D_visc + D_hyst + D_local [J]
-    double external = 0.0;           ///< W_ext, driven bodies [J]
-    double gravity = 0.0;            ///< W_g [J]
-    double inserted = 0.0;           ///< W_ins, offsets of new surfaces [J]
-    double initial = 0.0;            ///< E_0 [J]
+    double kinetic = 0.0;           ///< E_kin [J]
+    double elastic_bonds = 0.0;     ///< U of interfaces and parallel bonds [J]
+    double elastic_contacts = 0.0;  ///< U of contacts [J]
+    double fracture = 0.0;          ///< D_frac [J]
+    double friction = 0.0;          ///< D_fric, broken interfaces and contacts [J]
+    double damping = 0.0;           ///< D_visc + D_hyst + D_local [J]
+    double external = 0.0;          ///< W_ext, driven bodies [J]
+    double gravity = 0.0;           ///< W_g [J]
+    double inserted = 0.0;          ///< W_ins, offsets of new surfaces [J]
+    double initial = 0.0;           ///< E_0 [J]
 
     /// What was put in less what is found [J].
     double residual() const
     {
-        return external + gravity + inserted + initial - kinetic - elastic_bonds - elastic_contacts - fracture - friction - damping;
+        return external + gravity + inserted + initial - kinetic - elastic_bonds - elastic_contacts - fracture -
+               friction - damping;
     }
     /// |residual| over the largest of W_ext, E_kin, U, E_0 [-].
     double relative_error() const;
@@ -32,9 +33,9 @@ struct Ledger {
 Ledger energy_ledger(const Model& model, const State& state);
 
 struct Momentum {
-    Vec3 linear;         ///< of the free bodies [kg m/s]
-    Vec3 angular;        ///< about the origin [kg m^2/s]
-    double mass = 0.0;   ///< [kg]
+    Vec3 linear;        ///< of the free bodies [kg m/s]
+    Vec3 angular;       ///< about the origin [kg m^2/s]
+    double mass = 0.0;  ///< [kg]
 };
 Momentum total_momentum(const Model& model, const State& state);
 

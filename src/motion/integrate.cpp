@@ -110,10 +110,10 @@ void kick(const Model& model, State& state, double dt)
     const Device d = model.device;
     Bodies& b = state.bodies;
     parallel_for(d, b.size(),
-                 Kick{dt, model.local_damping, model.gravity, b.force.read(d), b.torque.read(d), b.inverse_inertia.read(d),
-                      b.mass.read(d), b.inverse_mass.read(d), b.orientation.read(d), b.velocity.write(d),
-                      b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
-                      b.damping_work.write(d), b.gravity_work.write(d)});
+                 Kick{dt, model.local_damping, model.gravity, b.force.read(d), b.torque.read(d),
+                      b.inverse_inertia.read(d), b.mass.read(d), b.inverse_mass.read(d), b.orientation.read(d),
+                      b.velocity.write(d), b.angular_momentum.write(d), b.angular_velocity.write(d),
+                      b.external_work.write(d), b.damping_work.write(d), b.gravity_work.write(d)});
 }
 
 void drift(const Model& model, State& state, double dt)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Velocity Verlet with a symmetric rotation splitting (Dullweber, Leimkuhler and McLachlan 1997, J. Chem. Phys. 107,
-// 5840; quaternions: Miller et al. 2002). One force evaluation a step, second order, symplectic, reversible; torque-free
-// it keeps |L| and the space vector L to round-off.
+// 5840; quaternions: Miller et al. 2002). One force evaluation a step, second order, symplectic, reversible;
+// torque-free it keeps |L| and the space vector L to round-off.
 #pragma once
 
 #include "model/model.h"

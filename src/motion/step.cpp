@@ -26,18 +26,18 @@ void make_room_for_stress(State& state, bool wanted)
 
 void step(const Model& model, State& state, double dt, bool want_stress)
 {
-    move_walls(model, state, state.time + 0.5 * dt);     // driven bodies: the speed of mid step, for both half kicks
-    kick(model, state, 0.5 * dt);                        // velocities to mid step
-    drift(model, state, dt);                             // positions, orientations
+    move_walls(model, state, state.time + 0.5 * dt);  // driven bodies: the speed of mid step, for both half kicks
+    kick(model, state, 0.5 * dt);                     // velocities to mid step
+    drift(model, state, dt);                          // positions, orientations
     state.time += dt;
     ++state.step;
     if (pairs_are_stale(model, state, dt)) find_pairs(model, state);
     make_room_for_stress(state, want_stress);
-    find_contacts(model, state);                         // geometry only: overlap, normal, point
+    find_contacts(model, state);  // geometry only: overlap, normal, point
     contact_forces(model, state, dt);
-    bond_forces(model, state, dt);                       // interfaces and parallel bonds; marks what breaks
-    gather_forces(model, state);                         // onto the bodies, in a fixed order
-    kick(model, state, 0.5 * dt);                        // velocities to the end of the step
+    bond_forces(model, state, dt);  // interfaces and parallel bonds; marks what breaks
+    gather_forces(model, state);    // onto the bodies, in a fixed order
+    kick(model, state, 0.5 * dt);   // velocities to the end of the step
 }
 
 void start(const Model& model, State& state)

@@ -40,7 +40,9 @@ struct Stiffness {
     std::vector<double> strongest;
 
     explicit Stiffness(int n)
-        : K(static_cast<std::size_t>(n), Matrix6::Zero()), source(static_cast<std::size_t>(n), ""), strongest(static_cast<std::size_t>(n), 0.0)
+        : K(static_cast<std::size_t>(n), Matrix6::Zero()),
+          source(static_cast<std::size_t>(n), ""),
+          strongest(static_cast<std::size_t>(n), 0.0)
     {
     }
     void add(int body, const Vec3& arm, const Vec3& n, double k_n, double k_s, const char* what)
@@ -64,8 +66,10 @@ void add_interfaces(const State& state, Stiffness& s)
         const Vec3 n = normalized(rotate(qa, f.normal_a[i]) + rotate(qb, f.normal_b[i]));
         for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
             const double w = state.points.weight[q];
-            s.add(f.a[i], rotate(qa, state.points.position_a[q]), n, w * f.normal_stiffness[i], w * f.shear_stiffness[i], "interface");
-            s.add(f.b[i], rotate(qb, state.points.position_b[q]), n, w * f.normal_stiffness[i], w * f.shear_stiffness[i], "interface");
+            s.add(f.a[i], rotate(qa, state.points.position_a[q]), n, w * f.normal_stiffness[i],
+                  w * f.shear_stiffness[i], "interface");
+            s.add(f.b[i], rotate(qb, state.points.position_b[q]), n, w * f.normal_stiffness[i],
+                  w * f.shear_stiffness[i], "interface");
         }
     }
 }
@@ -105,7 +109,9 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         if (p.overlap_volume <= 0.0 && !with_wall) continue;
         double area = p.area;
         Vec3 arm[2] = {p.position - b.position[bodies[0]], p.position - b.position[bodies[1]]}, normal = p.normal;
-        if (with_wall) area = std::fmax(area, 4.0 * model.shapes.point_area[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
+        if (with_wall)
+            area = std::fmax(
+                area, 4.0 * model.shapes.point_area[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
         if (p.overlap_volume <= 0.0) {  // where it will touch is not known yet: through the centre, square to the gap
             const ShapesView shapes = view(model.shapes, Device::cpu);
             const ContactBody x{shapes, b.shape[bodies[0]], b.position[bodies[0]], b.orientation[bodies[0]]};
@@ -118,7 +124,8 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         const double k = law.area_stiffness * c.stiffness_scale[i] * area * law.unload_factor;
         for (const int side : {0, 1}) {
             if (b.inverse_mass[bodies[side]] > 0.0) {
-                s.add(bodies[side], arm[side], normal, k, law.shear_ratio * k, with_wall ? "contact with a wall" : "contact");
+                s.add(bodies[side], arm[side], normal, k, law.shear_ratio * k,
+                      with_wall ? "contact with a wall" : "contact");
             }
         }
     }
@@ -147,8 +154,10 @@ double damping_at(const State& state, const Model& model, double omega)
     double worst = 0.0;
     const InterfaceBonds& f = state.interfaces;
     for (int i = 0; i < f.size(); ++i) {
-        if (f.normal_stiffness[i] > 0.0 && f.retired[i] == 0) worst = std::fmax(worst, 0.5 * omega * f.normal_damping[i] / f.normal_stiffness[i]);
-        if (f.shear_stiffness[i] > 0.0 && f.retired[i] == 0) worst = std::fmax(worst, 0.5 * omega * f.shear_damping[i] / f.shear_stiffness[i]);
+        if (f.normal_stiffness[i] > 0.0 && f.retired[i] == 0)
+            worst = std::fmax(worst, 0.5 * omega * f.normal_damping[i] / f.normal_stiffness[i]);
+        if (f.shear_stiffness[i] > 0.0 && f.retired[i] == 0)
+            worst = std::fmax(worst, 0.5 * omega * f.shear_damping[i] / f.shear_stiffness[i]);
     }
     const ParallelBonds& p = state.parallels;
     for (int i = 0; i < p.size(); ++i) {
@@ -188,7 +197,8 @@ TimeStepBound time_step_bound(const Model& model, const State& state)
     bound.critical = std::sqrt(2.0 / largest);
     const double zeta = damping_at(state, model, 2.0 / bound.critical);
     bound.with_damping = bound.critical * (std::sqrt(1.0 + zeta * zeta) - zeta);
-    bound.limiter = "body " + std::to_string(state.bodies.id[bound.body]) + ", stiffest spring: " + s.source[static_cast<std::size_t>(bound.body)];
+    bound.limiter = "body " + std::to_string(state.bodies.id[bound.body]) +
+                    ", stiffest spring: " + s.source[static_cast<std::size_t>(bound.body)];
     return bound;
 }
 

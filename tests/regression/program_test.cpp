@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program as its user meets it: commands, exit codes, files, the example in short.
-#include <nlohmann/json.hpp>
-
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <csignal>
@@ -24,7 +23,8 @@ const fs::path source = GF_SOURCE_DIR;
 const std::string example = (source / "examples/brazilian/brazilian.toml").string();
 /// Coarse grains, fast platens: two seconds instead of twenty.
 const std::string shorter =
-    " --set parts.disc.side='\"1.2 mm\"' --set test.platen_speed='\"200 mm/s\"' --set test.contact_half_width='\"1.3 mm\"' --set bonds[0].tensile_strength='\"60 MPa\"'"
+    " --set parts.disc.side='\"1.2 mm\"' --set test.platen_speed='\"200 mm/s\"' --set test.contact_half_width='\"1.3 "
+    "mm\"' --set bonds[0].tensile_strength='\"60 MPa\"'"
     " --set bonds[0].cohesion='\"150 MPa\"'";
 
 struct Outcome {
@@ -52,24 +52,32 @@ struct Workplace {
     ~Workplace() { fs::remove_all(folder); }
     Outcome run(const std::string& arguments) const
     {
-        const std::string command = "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > out.txt 2> err.txt < /dev/null";
+        const std::string command =
+            "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > out.txt 2> err.txt < /dev/null";
         const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / "out.txt"), text_of(folder / "err.txt")};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / "out.txt"),
+                text_of(folder / "err.txt")};
     }
-    nlohmann::json summary(const std::string& result) const { return nlohmann::json::parse(text_of(folder / result / "summary.json")); }
+    nlohmann::json summary(const std::string& result) const
+    {
+        return nlohmann::json::parse(text_of(folder / result / "summary.json"));
+    }
 };
 
 }  // namespace
 
-TEST_CASE("the example in short: every file is there, the account closes, resolved input and threads give the same bits")
+TEST_CASE(
+    "the example in short: every file is there, the account closes, resolved input and threads give the same bits")
 {
     const Workplace w;
     const Outcome first = w.run("run " + example + shorter + " --threads 2 --out a");
     INFO(first.err);
     REQUIRE(first.code == 0);
-    for (const char* file : {"input.toml", "resolved.toml", "run.log", "summary.json", "history.csv", "results.h5", "paraview/grains.pvd",
-                             "paraview/bonds.pvd", "paraview/contacts.pvd", "paraview/cracks.pvd", "paraview/walls.pvd", "paraview/view.py",
-                             "plots/load_displacement.svg", "plots/load_displacement.png", "plots/energies.svg", "plots/crack_map.svg"}) {
+    for (const char* file :
+         {"input.toml", "resolved.toml", "run.log", "summary.json", "history.csv", "results.h5", "paraview/grains.pvd",
+          "paraview/bonds.pvd", "paraview/contacts.pvd", "paraview/cracks.pvd", "paraview/walls.pvd",
+          "paraview/view.py", "plots/load_displacement.svg", "plots/load_displacement.png", "plots/energies.svg",
+          "plots/crack_map.svg"}) {
         CHECK(fs::exists(w.folder / "a" / file));
     }
     const nlohmann::json s = w.summary("a");
@@ -103,8 +111,9 @@ TEST_CASE("wrong use: exit 2, a message, nothing written")
     refused(example + " --device gpu", "--device");
     refused(example + " --set parts.disc.side='\"-1 mm\"'", "parts[0].side");
     refused(example + " --set parts.disc.sides=1", "did you mean \"side\"");
-    refused(example + " --set parts.disc.side='\"20 mm\"'", "parts[0]");                            // no cell fits
-    refused(example + " --set bonds[0].fracture_energy_I='\"1 J/m^2\"'", "tensile_strength^2/(2 k_n)");  // only building can tell
+    refused(example + " --set parts.disc.side='\"20 mm\"'", "parts[0]");  // no cell fits
+    refused(example + " --set bonds[0].fracture_energy_I='\"1 J/m^2\"'",
+            "tensile_strength^2/(2 k_n)");  // only building can tell
     refused(example + " --set control.time_step='\"1 ms\"'", "stability limit");
     refused("info no_such_folder", "no_such_folder");
 }
@@ -154,8 +163,10 @@ TEST_CASE("generate writes a microstructure that generator = \"file\" reads back
     std::ifstream in(example);
     std::ofstream out(w.folder / "from_file.toml");
     for (std::string line; std::getline(in, line);) {
-        if (line.rfind("generator", 0) == 0) out << "generator = \"file\"\nfile = \"disc.json\"\n";
-        else if (line.rfind("side", 0) != 0 && line.rfind("thickness", 0) != 0 && line.rfind("at_region", 0) != 0) out << line << "\n";
+        if (line.rfind("generator", 0) == 0)
+            out << "generator = \"file\"\nfile = \"disc.json\"\n";
+        else if (line.rfind("side", 0) != 0 && line.rfind("thickness", 0) != 0 && line.rfind("at_region", 0) != 0)
+            out << line << "\n";
     }
     out.close();
     std::string no_side = shorter;
@@ -166,7 +177,8 @@ TEST_CASE("generate writes a microstructure that generator = \"file\" reads back
     REQUIRE(w.run(example + shorter + " --set test.stop.time='\"20 us\"' -q --no-report").code == 0);
     CHECK(w.summary("from_file.out")["counts"] == w.summary("brazilian.out")["counts"]);
     // positions pass through decimal text and frames: equal to round-off
-    CHECK(w.summary("from_file.out")["test"]["peak_load_N"].get<double>() == Approx(w.summary("brazilian.out")["test"]["peak_load_N"].get<double>()).epsilon(1e-9));
+    CHECK(w.summary("from_file.out")["test"]["peak_load_N"].get<double>() ==
+          Approx(w.summary("brazilian.out")["test"]["peak_load_N"].get<double>()).epsilon(1e-9));
 }
 
 TEST_CASE("check reports without running")
@@ -174,7 +186,8 @@ TEST_CASE("check reports without running")
     const Workplace w;
     const Outcome o = w.run("check " + example);
     CHECK(o.code == 0);
-    for (const char* said : {"grains 187", "time step", "memory", "run time", "[materials.sic]"}) CHECK(o.out.find(said) != std::string::npos);
+    for (const char* said : {"grains 187", "time step", "memory", "run time", "[materials.sic]"})
+        CHECK(o.out.find(said) != std::string::npos);
     CHECK_FALSE(fs::exists(w.folder / "brazilian.out"));
 }
 
@@ -191,7 +204,8 @@ TEST_CASE("SIGTERM and SIGINT stop the run after a checkpoint")
             execl(program.c_str(), program.c_str(), example.c_str(), "--threads", "1", static_cast<char*>(nullptr));
             _exit(98);
         }
-        for (int i = 0; i < 400 && !fs::exists(w.folder / "brazilian.out/paraview/grains.pvd"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        for (int i = 0; i < 400 && !fs::exists(w.folder / "brazilian.out/paraview/grains.pvd"); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         REQUIRE(kill(child, signal) == 0);
         int status = 0;
@@ -203,7 +217,7 @@ TEST_CASE("SIGTERM and SIGINT stop the run after a checkpoint")
     }
 }
 
-TEST_CASE("slow: halving the platen speed changes the peak load of the example by less than 2 %")
+TEST_CASE("halving the platen speed changes the peak load of the example by less than 2 %", "[slow]")
 {
     const Workplace w;
     REQUIRE(w.run(example + " --out fast -q --no-report --threads 2").code == 0);

@@ -11,7 +11,6 @@
 #include "motion/step.h"
 
 #include <Eigen/Sparse>
-
 #include <catch2/catch.hpp>
 
 #include <array>
@@ -113,7 +112,8 @@ using Held = std::array<bool, 6>;
 
 /// Newton iterations on the real kernels with the analytic stiffness of undamaged interfaces, until the largest
 /// correction is below `tolerance` [m]. `load`: force and torque on each body, 6 numbers a body.
-inline void solve_static(Assembly& a, const std::vector<Held>& held, const Eigen::VectorXd& load, double tolerance = 1e-14, int most = 30)
+inline void solve_static(Assembly& a, const std::vector<Held>& held, const Eigen::VectorXd& load,
+                         double tolerance = 1e-14, int most = 30)
 {
     State& s = a.state;
     const int n = s.bodies.size();
@@ -121,7 +121,8 @@ inline void solve_static(Assembly& a, const std::vector<Held>& held, const Eigen
     int unknowns = 0;
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < 6; ++k) {
-            if (!held[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) number[static_cast<std::size_t>(6 * i + k)] = unknowns++;
+            if (!held[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)])
+                number[static_cast<std::size_t>(6 * i + k)] = unknowns++;
         }
     }
     const InterfaceBonds& f = s.interfaces;
@@ -135,7 +136,8 @@ inline void solve_static(Assembly& a, const std::vector<Held>& held, const Eigen
                 const Eigen::Vector3d e(m.x, m.y, m.z);
                 Eigen::Matrix<double, 12, 12> K = Eigen::Matrix<double, 12, 12>::Zero();
                 for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
-                    const Mat3 ra = Mat3::skew(rotate(qa, s.points.position_a[q])), rb = Mat3::skew(rotate(qb, s.points.position_b[q]));
+                    const Mat3 ra = Mat3::skew(rotate(qa, s.points.position_a[q])),
+                               rb = Mat3::skew(rotate(qb, s.points.position_b[q]));
                     Eigen::Matrix<double, 3, 12> G;
                     for (int r = 0; r < 3; ++r) {
                         for (int c = 0; c < 3; ++c) {
@@ -146,9 +148,12 @@ inline void solve_static(Assembly& a, const std::vector<Held>& held, const Eigen
                         }
                     }
                     const double k_n = f.normal_stiffness[i], k_s = f.shear_stiffness[i];
-                    K += s.points.weight[q] * G.transpose() * (k_s * Eigen::Matrix3d::Identity() + (k_n - k_s) * e * e.transpose()) * G;
+                    K += s.points.weight[q] * G.transpose() *
+                         (k_s * Eigen::Matrix3d::Identity() + (k_n - k_s) * e * e.transpose()) * G;
                 }
-                const auto at = [&](int k) { return number[static_cast<std::size_t>(6 * (k < 6 ? f.a[i] : f.b[i]) + k % 6)]; };
+                const auto at = [&](int k) {
+                    return number[static_cast<std::size_t>(6 * (k < 6 ? f.a[i] : f.b[i]) + k % 6)];
+                };
                 for (int r = 0; r < 12; ++r) {
                     for (int c = 0; c < 12; ++c) {
                         if (at(r) >= 0 && at(c) >= 0) entries.emplace_back(at(r), at(c), K(r, c));
@@ -191,7 +196,9 @@ inline double relative(double found, double expected)
 
 inline Vec3 random_vector(int& draw)
 {
-    const auto u = [&] { return 2.0 * uniform_random(7, RandomPurpose::test, static_cast<std::uint32_t>(draw++)) - 1.0; };
+    const auto u = [&] {
+        return 2.0 * uniform_random(7, RandomPurpose::test, static_cast<std::uint32_t>(draw++)) - 1.0;
+    };
     const double x = u(), y = u();
     return {x, y, u()};
 }

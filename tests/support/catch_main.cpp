@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Catch's main with two options of our own: --device cpu|cuda and --threads N, so that every case runs on any back-end.
 #define CATCH_CONFIG_RUNNER
-#include <catch2/catch.hpp>
-
 #include "gpu/device.h"
 #include "gpu/parallel.h"
+
+#include <catch2/catch.hpp>
 
 #include <string>
 

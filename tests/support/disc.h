@@ -69,7 +69,8 @@ inline std::vector<int> break_sequence(const State& s)
     for (int i = 0; i < s.interfaces.size(); ++i) {
         if (s.interfaces.failure_time[i] >= 0) broken.push_back(i);
     }
-    std::stable_sort(broken.begin(), broken.end(), [&](int x, int y) { return s.interfaces.failure_time[x] < s.interfaces.failure_time[y]; });
+    std::stable_sort(broken.begin(), broken.end(),
+                     [&](int x, int y) { return s.interfaces.failure_time[x] < s.interfaces.failure_time[y]; });
     return broken;
 }
 

@@ -60,7 +60,8 @@ Case coarse_case()
 
 TEST_CASE("Hondros' formulas at the values of the literature")
 {
-    const double s[] = {0, 0.3, 0.6, 0.8}, across[] = {0.301469, 0.290484, 0.203058, -0.219310}, along[] = {-0.938088, -1.048688, -1.497746, -2.154087};
+    const double s[] = {0, 0.3, 0.6, 0.8}, across[] = {0.301469, 0.290484, 0.203058, -0.219310},
+                 along[] = {-0.938088, -1.048688, -1.497746, -2.154087};
     for (int i = 0; i < 4; ++i) {
         CHECK(on_loaded_diameter(s[i], 0.2, 2.5).across == Approx(across[i]).margin(1e-6));
         CHECK(on_loaded_diameter(s[i], 0.2, 2.5).along == Approx(along[i]).margin(1e-6));
@@ -84,7 +85,7 @@ TEST_CASE("assembly at rest without bonds: nothing presses")
     }
 }
 
-TEST_CASE("slow: elastic disc of 3,000 grains: centre stress within 3 %, both diameters within 5 % of Hondros")
+TEST_CASE("elastic disc of 3,000 grains: centre stress within 3 %, both diameters within 5 % of Hondros", "[slow]")
 {
     Case c = disc_case(0.15e-3, true);
     c.bonds[0].failure = "unbreakable";
@@ -119,8 +120,8 @@ TEST_CASE("slow: elastic disc of 3,000 grains: centre stress within 3 %, both di
         ++n;
     }
     const Stresses exact = on_loaded_diameter(0, alpha, q);
-    INFO("centre: sigma_x " << sx / n / centre << ", sigma_y " << sy / n / centre << " of 2P/(pi D t); Hondros " << exact.across / centre
-                            << ", " << exact.along / centre);
+    INFO("centre: sigma_x " << sx / n / centre << ", sigma_y " << sy / n / centre << " of 2P/(pi D t); Hondros "
+                            << exact.across / centre << ", " << exact.along / centre);
     CHECK(sx / n == Approx(exact.across).epsilon(0.03));
     CHECK(sy / n == Approx(exact.along).epsilon(0.03));
 
@@ -131,8 +132,11 @@ TEST_CASE("slow: elastic disc of 3,000 grains: centre stress within 3 %, both di
         for (int i = 0; i < b.state.bodies.size(); ++i) {
             const Vec3 x = b.state.bodies.position[i];
             const double r = loaded ? x.y : x.x, off = loaded ? x.x : x.y;
-            if (b.state.bodies.inverse_mass[i] == 0 || std::fabs(off) > 0.03 * R || std::fabs(r) < from * R || std::fabs(r) >= to * R) continue;
-            const Stresses h = loaded ? on_loaded_diameter(std::fabs(r) / R, alpha, q) : on_cross_diameter(std::fabs(r) / R, alpha, q);
+            if (b.state.bodies.inverse_mass[i] == 0 || std::fabs(off) > 0.03 * R || std::fabs(r) < from * R ||
+                std::fabs(r) >= to * R)
+                continue;
+            const Stresses h =
+                loaded ? on_loaded_diameter(std::fabs(r) / R, alpha, q) : on_cross_diameter(std::fabs(r) / R, alpha, q);
             across += stress[static_cast<std::size_t>(i)][0].x;
             along += stress[static_cast<std::size_t>(i)][1].y;
             expected.across += h.across;
@@ -151,15 +155,18 @@ TEST_CASE("slow: elastic disc of 3,000 grains: centre stress within 3 %, both di
             double across, along;
             Stresses h{};
             profile(loaded, from, from + 0.1, across, along, h);
-            INFO((loaded ? "loaded" : "cross") << " diameter, r/R " << from << ": " << across / centre << " (" << h.across / centre << "), "
-                                               << along / centre << " (" << h.along / centre << ")");
+            INFO((loaded ? "loaded" : "cross")
+                 << " diameter, r/R " << from << ": " << across / centre << " (" << h.across / centre << "), "
+                 << along / centre << " (" << h.along / centre << ")");
             // 5 % of the local principal stress scale: sigma_x goes through zero near the platens
             CHECK(std::fabs(across - h.across) < 0.05 * std::max(std::fabs(h.across), centre));
             CHECK(std::fabs(along - h.along) < 0.05 * std::max(std::fabs(h.along), centre));
-            worst = std::max({worst, std::fabs(across - h.across) / centre, std::fabs(along - h.along) / std::max(std::fabs(h.along), centre)});
+            worst = std::max({worst, std::fabs(across - h.across) / centre,
+                              std::fabs(along - h.along) / std::max(std::fabs(h.along), centre)});
         }
     }
-    WARN("Hondros: centre sigma_x " << sx / n / exact.across - 1 << ", sigma_y " << sy / n / exact.along - 1 << "; worst on the diameters " << worst);
+    WARN("Hondros: centre sigma_x " << sx / n / exact.across - 1 << ", sigma_y " << sy / n / exact.along - 1
+                                    << "; worst on the diameters " << worst);
     const Ledger e = energy_ledger(b.model, b.state);
     CHECK(e.relative_error() < 1e-3);
 }
@@ -195,14 +202,18 @@ TEST_CASE("a turned experiment gives the turned result, and the same sequence of
         double damaged = 0;
         for (const double t : a.state.interfaces.first_damage_time.host()) damaged = std::max(damaged, t);
         if (damaged > 0) break;
-        const double scale = norm(a.state.bodies.position[a.state.bodies.size() - 1] - a.state.bodies.start_position[a.state.bodies.size() - 1]);
+        const double scale = norm(a.state.bodies.position[a.state.bodies.size() - 1] -
+                                  a.state.bodies.start_position[a.state.bodies.size() - 1]);
         for (int i = 0; i < a.state.bodies.size(); ++i) {
-            const Vec3 u = a.state.bodies.position[i] - a.state.bodies.start_position[i], v = b.state.bodies.position[i] - b.state.bodies.start_position[i];
-            // displacements of micrometres on positions of millimetres: 1e-9 of the disc's radius is below 1e-16 m x 1e5
+            const Vec3 u = a.state.bodies.position[i] - a.state.bodies.start_position[i],
+                       v = b.state.bodies.position[i] - b.state.bodies.start_position[i];
+            // displacements of micrometres on positions of millimetres: 1e-9 of the disc's radius is below 1e-16 m x
+            // 1e5
             REQUIRE(norm(rotate(q, u) - v) < 1e-9 * scale + 1e-15);
         }
     }
-    CHECK(measure(a.experiment, a.model, a.state).load == Approx(measure(b.experiment, b.model, b.state).load).epsilon(1e-9));
+    CHECK(measure(a.experiment, a.model, a.state).load ==
+          Approx(measure(b.experiment, b.model, b.state).load).epsilon(1e-9));
     run_steps(a, dt, 3000);
     run_steps(b, dt, 3000);
     const std::vector<int> first = break_sequence(a.state), second = break_sequence(b.state);

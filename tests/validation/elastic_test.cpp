@@ -18,7 +18,8 @@ constexpr Held free_body{false, false, false, false, false, false}, fixed_body{t
 Assembly cantilever(int N, double h, double width, double depth, double k_n, double k_s)
 {
     std::vector<GrainSpec> grains;
-    for (int i = 0; i <= N; ++i) grains.push_back(grain(make_box({h, depth, width}, {(i - 0.5) * h, 0, 0}), {(i - 0.5) * h, 0, 0}, 0.02));
+    for (int i = 0; i <= N; ++i)
+        grains.push_back(grain(make_box({h, depth, width}, {(i - 0.5) * h, 0, 0}), {(i - 0.5) * h, 0, 0}, 0.02));
     Assembly a = assemble(std::move(grains));
     bond(a, elastic_law(), 0.0, k_n, k_s / k_n);
     return a;
@@ -66,7 +67,8 @@ double modulus_along_y(int columns, int rows, double nu, bool clamped, double* p
     const auto list = rows_by(a.state, 1);
     REQUIRE(static_cast<int>(list.size()) == rows);
     const double length = 1.5 * r * (rows - 1);
-    std::vector<Held> held(static_cast<std::size_t>(a.state.bodies.size()), Held{false, false, true, true, true, false});
+    std::vector<Held> held(static_cast<std::size_t>(a.state.bodies.size()),
+                           Held{false, false, true, true, true, false});
     for (const int i : list.front()) held[static_cast<std::size_t>(i)] = {clamped, true, true, true, true, clamped};
     for (const int i : list.back()) {
         held[static_cast<std::size_t>(i)] = {clamped, true, true, true, true, clamped};
@@ -87,7 +89,8 @@ double modulus_along_y(int columns, int rows, double nu, bool clamped, double* p
         const int low = rows / 4, high = rows - 1 - rows / 4;
         const auto mean_y = [&](int k, const std::vector<Vec3>& x) {
             double y = 0;
-            for (const int i : list[static_cast<std::size_t>(k)]) y += x[static_cast<std::size_t>(i)].y / static_cast<double>(list[static_cast<std::size_t>(k)].size());
+            for (const int i : list[static_cast<std::size_t>(k)])
+                y += x[static_cast<std::size_t>(i)].y / static_cast<double>(list[static_cast<std::size_t>(k)].size());
             return y;
         };
         const auto now = a.state.bodies.position.host();
@@ -220,7 +223,8 @@ TEST_CASE("honeycomb: modulus along x is 1 - 1/(3 n) of E, 5/6 of the stress in 
         Assembly a = honeycomb({12 * h * 1.0001, 1.5 * r * n + 0.4 * r, t}, r, t, E, 0.0);
         const auto rows = rows_by(a.state, 1);
         REQUIRE(static_cast<int>(rows.size()) == n);
-        std::vector<Held> held(static_cast<std::size_t>(a.state.bodies.size()), Held{false, false, true, true, true, false});
+        std::vector<Held> held(static_cast<std::size_t>(a.state.bodies.size()),
+                               Held{false, false, true, true, true, false});
         std::vector<int> last;
         for (const auto& row : rows) {
             for (const int i : {row.front(), row.back()}) {
@@ -236,7 +240,9 @@ TEST_CASE("honeycomb: modulus along x is 1 - 1/(3 n) of E, 5/6 of the stress in 
         const double stress = -total_force(a.state, last, 0) / (1.5 * r * n * t);
         CHECK(stress / strain / E == Approx(1 - 1.0 / (3 * n)).epsilon(1e-6));
         const auto grains = grain_stress(a.model, a.state);
-        const auto middle = [&](int k) { return grains[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)][6])][0].x / (E * strain); };
+        const auto middle = [&](int k) {
+            return grains[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)][6])][0].x / (E * strain);
+        };
         CHECK(middle(n / 2) == Approx(1.0).epsilon(1e-6));
         CHECK(middle(0) == Approx(5.0 / 6).epsilon(1e-6));
     }
@@ -258,7 +264,8 @@ TEST_CASE("honeycomb: facet tractions and first failure under uniaxial stress")
             Assembly a = honeycomb({3 * h * 1.0001, 1.5 * r * 3 + 0.4 * r, t}, r, t, E, nu);
             deform(a, p_x, p_y);
             for (int i = 0; i < a.state.interfaces.size(); ++i) {
-                const Vec3 n = a.state.interfaces.normal_a[i], f = -a.state.slots.force[i] * (1 / a.state.interfaces.area[i]);
+                const Vec3 n = a.state.interfaces.normal_a[i],
+                           f = -a.state.slots.force[i] * (1 / a.state.interfaces.area[i]);
                 const int facet = std::fabs(n.x) > 0.9 ? 0 : 1;
                 t_n[facet] = dot(f, n);
                 t_s[facet] = norm(tangential(f, n));
@@ -294,7 +301,8 @@ TEST_CASE("honeycomb: facet tractions and first failure under uniaxial stress")
             return high;
         };
         CHECK(first_failure(1, 0) == Approx(100 * (1 - nu)).epsilon(1e-2));
-        CHECK(first_failure(-1, 0) == Approx(4 * 200 * (1 - nu) / ((1 - 3 * nu) * (std::sqrt(3.0) - 0.5))).epsilon(1e-2));
+        CHECK(first_failure(-1, 0) ==
+              Approx(4 * 200 * (1 - nu) / ((1 - 3 * nu) * (std::sqrt(3.0) - 0.5))).epsilon(1e-2));
         if (nu > 0) {
             const double splitting = 100 * (1 - nu) / nu;
             const double denominator = std::sqrt(3.0) * (1 - 3 * nu) - (3 - nu) * 0.5;

@@ -58,7 +58,8 @@ TEST_CASE("step velocity: sigma = rho c_0 v, arrival at c_0, a free end doubles 
 TEST_CASE("lattice dispersion: c/c_0 = sin(x)/x, x = pi h/lambda")
 {
     for (const auto& [ratio, expected] : {std::pair{10, 0.9836}, {20, 0.9959}, {40, 0.9990}}) {
-        // the free bar of N = lambda blocks swings in its second mode, u = cos(2 pi (i + 1/2)/N), with wave length lambda
+        // the free bar of N = lambda blocks swings in its second mode, u = cos(2 pi (i + 1/2)/N), with wave length
+        // lambda
         const int N = ratio;
         Assembly a = bar(N, 0.0);
         const double x = std::numbers::pi / ratio, amplitude = 1e-7;
@@ -87,7 +88,8 @@ TEST_CASE("time step bound: exact for the infinite chain, never above the stable
         Assembly a = bar(N, 0.0);
         start(a.model, a.state);
         const double limit = time_step_bound(a.model, a.state).critical;
-        // 6x6 bound of an inner block: the axial mode has lambda = 2 k/m, so that sqrt(2/lambda) = 1; bending is stiffer
+        // 6x6 bound of an inner block: the axial mode has lambda = 2 k/m, so that sqrt(2/lambda) = 1; bending is
+        // stiffer
         CHECK(limit <= 1.0);
         int draw = 0;
         for (int i = 0; i < N; ++i) shift(a.state, i, 1e-9 * random_vector(draw));
@@ -106,7 +108,8 @@ TEST_CASE("time step bound: exact for the infinite chain, never above the stable
         for (double& m : p->state.bodies.inverse_mass.host()) m *= 0.5;
         for (Vec3& I : p->state.bodies.inverse_inertia.host()) I *= 0.5;
     }
-    CHECK(time_step_bound(heavy.model, heavy.state).critical == Approx(std::sqrt(2.0) * time_step_bound(light.model, light.state).critical).epsilon(1e-12));
+    CHECK(time_step_bound(heavy.model, heavy.state).critical ==
+          Approx(std::sqrt(2.0) * time_step_bound(light.model, light.state).critical).epsilon(1e-12));
 }
 
 TEST_CASE("time step of the honeycomb of SiC: 5.96e-8 s")

@@ -15,7 +15,9 @@ constexpr double k_n = 5000, k_s = 2000;
 /// Two blocks of unit length along x, joined at x = 0.
 Assembly pair_of_blocks(const InterfaceLaw& law, QuadratureRule rule = QuadratureRule::automatic, double density = 1.0)
 {
-    Assembly a = assemble({grain(make_box({1, b, d}, {-0.5, 0, 0}), {-0.5, 0, 0}), grain(make_box({1, b, d}, {0.5, 0, 0}), {0.5, 0, 0})}, density);
+    Assembly a = assemble(
+        {grain(make_box({1, b, d}, {-0.5, 0, 0}), {-0.5, 0, 0}), grain(make_box({1, b, d}, {0.5, 0, 0}), {0.5, 0, 0})},
+        density);
     bond(a, law, 0.0, k_n, k_s / k_n, rule);
     REQUIRE(a.state.interfaces.size() == 1);
     return a;
@@ -68,10 +70,12 @@ double breaking_factor(const InterfaceLaw& law, const Vec3& u, const Vec3& turn_
 
 TEST_CASE("two-grain stiffness in six modes")
 {
-    // Finite motions, for which the mean frame gives closed forms without round-off: axial and shear are linear; turning
-    // by t about an axis through the face centre opens a point at distance y by 2 sin(t/2) y, on an arm y cos(t/2).
+    // Finite motions, for which the mean frame gives closed forms without round-off: axial and shear are linear;
+    // turning by t about an axis through the face centre opens a point at distance y by 2 sin(t/2) y, on an arm y
+    // cos(t/2).
     const double A = b * d, I_y = b * d * d * d / 12, I_z = d * b * b * b / 12, t = 0.2;
-    for (const QuadratureRule rule : {QuadratureRule::automatic, QuadratureRule::cross, QuadratureRule::fan3, QuadratureRule::fan7, QuadratureRule::lobatto4}) {
+    for (const QuadratureRule rule : {QuadratureRule::automatic, QuadratureRule::cross, QuadratureRule::fan3,
+                                      QuadratureRule::fan7, QuadratureRule::lobatto4}) {
         Assembly a = pair_of_blocks(elastic_law(), rule);
         move_about_face(a, {0.25, 0, 0}, {});
         CHECK(relative(-on_second(a).force.x, k_n * A * 0.25) < 1e-12);
@@ -200,7 +204,8 @@ TEST_CASE("a rigid motion of the pair changes nothing but turns the forces")
 TEST_CASE("spinning and vibrating cubes: energy fluctuation falls by four, no drift, momentum to round-off")
 {
     const auto run = [](double dt, double time, double& fluctuation, double& drift_of_mean, double& momentum_error) {
-        Assembly a = assemble({grain(make_box({1, 1, 1}, {-0.5, 0, 0}), {-0.5, 0, 0}), grain(make_box({1, 1, 1}, {0.5, 0, 0}), {0.5, 0, 0})});
+        Assembly a = assemble({grain(make_box({1, 1, 1}, {-0.5, 0, 0}), {-0.5, 0, 0}),
+                               grain(make_box({1, 1, 1}, {0.5, 0, 0}), {0.5, 0, 0})});
         bond(a, elastic_law(), 0.0, 100.0, 0.4, QuadratureRule::gauss3);
         a.model.skin = 0.5;
         const auto spin = [&](int i, const Vec3& w, const Vec3& v) {
@@ -264,7 +269,8 @@ TEST_CASE("parallel bond: stiffness and breaking loads of the circular section")
 {
     const double R = 0.5, sigma_c = 20, c = 10;
     const auto fresh = [&](bool separate) {
-        Assembly a = assemble({grain(make_box({1, 2, 2}, {-0.5, 0, 0}), {-0.5, 0, 0}), grain(make_box({1, 2, 2}, {0.5, 0, 0}), {0.5, 0, 0})});
+        Assembly a = assemble({grain(make_box({1, 2, 2}, {-0.5, 0, 0}), {-0.5, 0, 0}),
+                               grain(make_box({1, 2, 2}, {0.5, 0, 0}), {0.5, 0, 0})});
         a.model.parallel_laws.host() = {{sigma_c, c, 0.0, 1.0, separate, true}};
         BondRule r;
         r.kind = BondRule::Kind::parallel;

@@ -30,7 +30,8 @@ ContactPoint between(const Assembly& a, int i, int j)
 {
     const ShapesView s = view(a.model.shapes, Device::cpu);
     const Bodies& b = a.state.bodies;
-    return contact_manifold({s, b.shape[i], b.position[i], b.orientation[i]}, {s, b.shape[j], b.position[j], b.orientation[j]});
+    return contact_manifold({s, b.shape[i], b.position[i], b.orientation[i]},
+                            {s, b.shape[j], b.position[j], b.orientation[j]});
 }
 
 /// A fixed plate with its upper face at z = 0 under the bodies of `a`.
@@ -49,9 +50,11 @@ double restitution(const LinearContact& law, double dt_share)
     a.model.contact_laws.host() = {law};
     a.state.bodies.velocity.host()[0] = {0.5, 0, 0};
     a.state.bodies.velocity.host()[1] = {-0.5, 0, 0};
-    const double period = std::numbers::pi * std::sqrt(0.5 / law.area_stiffness);  // half an oscillation, reduced mass 1/2
+    const double period =
+        std::numbers::pi * std::sqrt(0.5 / law.area_stiffness);  // half an oscillation, reduced mass 1/2
     start(a.model, a.state);
-    for (int i = 0; i < static_cast<int>(0.01 / (dt_share * period)) + static_cast<int>(4 / dt_share); ++i) step(a.model, a.state, dt_share * period);
+    for (int i = 0; i < static_cast<int>(0.01 / (dt_share * period)) + static_cast<int>(4 / dt_share); ++i)
+        step(a.model, a.state, dt_share * period);
     CHECK(std::fabs(total_momentum(a.model, a.state).linear.x) < 1e-13);
     CHECK(energy_ledger(a.model, a.state).relative_error() < 1e-3);
     return a.state.bodies.velocity[1].x - a.state.bodies.velocity[0].x;
@@ -122,7 +125,8 @@ TEST_CASE("neighbour list equals all pairs of boxes")
     for (int i = 0; i < 1000; ++i) {
         const double size = 0.2 + 0.3 * std::fabs(random_vector(draw).x);
         const Vec3 x = 3.0 * random_vector(draw);
-        grains.push_back(grain(rotated(make_box({size, size, 2 * size}), from_axis_angle(normalized(random_vector(draw)), 1.0)), x, 0.01));
+        grains.push_back(grain(
+            rotated(make_box({size, size, 2 * size}), from_axis_angle(normalized(random_vector(draw)), 1.0)), x, 0.01));
         grains.back().shape = translated(grains.back().shape, x);
     }
     Assembly a = assemble(std::move(grains));
@@ -142,7 +146,8 @@ TEST_CASE("neighbour list equals all pairs of boxes")
                 return high ? extreme + s.radius[k] + 0.5 * a.model.skin : extreme - s.radius[k] - 0.5 * a.model.skin;
             };
             bool overlap = true;
-            for (int k = 0; k < 3; ++k) overlap = overlap && box(i, false, k) <= box(j, true, k) && box(j, false, k) <= box(i, true, k);
+            for (int k = 0; k < 3; ++k)
+                overlap = overlap && box(i, false, k) <= box(j, true, k) && box(j, false, k) <= box(i, true, k);
             expected += overlap ? 1 : 0;
             if (overlap) CHECK(found.count({i, j}) == 1);
         }
@@ -252,7 +257,8 @@ TEST_CASE("a stack of cubes carries its weight")
     start(a.model, a.state);
     for (int i = 0; i < 20000; ++i) step(a.model, a.state, 1e-3);
     for (int i = 0; i < a.state.contacts.size(); ++i) {
-        const double weight_above = 2.0 * g * (a.state.contacts.b[i] == 4 ? 4 - a.state.contacts.a[i] : 4 - a.state.contacts.b[i]);
+        const double weight_above =
+            2.0 * g * (a.state.contacts.b[i] == 4 ? 4 - a.state.contacts.a[i] : 4 - a.state.contacts.b[i]);
         CHECK(relative(a.state.contacts.normal_force[i], weight_above) < 1e-6);
     }
     CHECK(a.state.contacts.size() == 4);

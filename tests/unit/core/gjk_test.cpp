@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closest points of convex cores against a search over all features.
 #include "geometry/gjk.h"
+
 #include "support/assembly.h"
 
 using namespace grainfrac;
@@ -30,7 +31,8 @@ double point_to_face(const Vec3& p, const std::vector<Vec3>& polygon)
 
 double segment_to_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
-    double best = std::min({norm(a - on_segment(a, c, d)), norm(b - on_segment(b, c, d)), norm(c - on_segment(c, a, b)), norm(d - on_segment(d, a, b))});
+    double best = std::min({norm(a - on_segment(a, c, d)), norm(b - on_segment(b, c, d)), norm(c - on_segment(c, a, b)),
+                            norm(d - on_segment(d, a, b))});
     const Vec3 u = b - a, v = d - c, w = c - a;
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), den = uu * vv - uv * uv;
     if (den > 1e-14 * uu * vv) {
@@ -55,7 +57,8 @@ double by_features(const Polyhedron& a, const Polyhedron& b)
             for (std::size_t i = 0; i < fa.size(); ++i) {
                 for (std::size_t j = 0; j < fb.size(); ++j) {
                     const auto at = [](const Polyhedron& p, int k) { return p.vertices[static_cast<std::size_t>(k)]; };
-                    best = std::min(best, segment_to_segment(at(a, fa[i]), at(a, fa[(i + 1) % fa.size()]), at(b, fb[j]), at(b, fb[(j + 1) % fb.size()])));
+                    best = std::min(best, segment_to_segment(at(a, fa[i]), at(a, fa[(i + 1) % fa.size()]), at(b, fb[j]),
+                                                             at(b, fb[(j + 1) % fb.size()])));
                 }
             }
         }
@@ -65,7 +68,8 @@ double by_features(const Polyhedron& a, const Polyhedron& b)
 
 double by_gjk(const Polyhedron& a, const Polyhedron& b)
 {
-    const PlacedCore x{a.vertices.data(), static_cast<int>(a.vertices.size()), {}, {}}, y{b.vertices.data(), static_cast<int>(b.vertices.size()), {}, {}};
+    const PlacedCore x{a.vertices.data(), static_cast<int>(a.vertices.size()), {}, {}},
+        y{b.vertices.data(), static_cast<int>(b.vertices.size()), {}, {}};
     const ClosestPoints c = closest_points(x, y, {1, 0, 0});
     CHECK(norm(c.b - c.a) == Approx(c.distance).margin(1e-15));
     return c.distance;
@@ -77,10 +81,14 @@ TEST_CASE("closest points of random prisms agree with the feature search")
 {
     int draw = 0, tried = 0;
     while (tried < 2000) {
-        const Polyhedron a = rotated(make_hexagonal_prism(0.5, 1.0 + random_vector(draw).x * 0.5), from_axis_angle(normalized(random_vector(draw)), 3 * random_vector(draw).x));
+        const Polyhedron a = rotated(make_hexagonal_prism(0.5, 1.0 + random_vector(draw).x * 0.5),
+                                     from_axis_angle(normalized(random_vector(draw)), 3 * random_vector(draw).x));
         const Vec3 way = normalized(random_vector(draw));
         const double far = 1.05 + 0.5 * random_vector(draw).x;
-        const Polyhedron b = translated(rotated(make_box({0.7, 1.1, 0.4}), from_axis_angle(normalized(random_vector(draw)), 3 * random_vector(draw).x)), far * way);
+        const Polyhedron b =
+            translated(rotated(make_box({0.7, 1.1, 0.4}),
+                               from_axis_angle(normalized(random_vector(draw)), 3 * random_vector(draw).x)),
+                       far * way);
         if (!clip(a, b).faces.empty()) continue;  // overlapping
         ++tried;
         CHECK(by_gjk(a, b) == Approx(by_features(a, b)).epsilon(1e-9).margin(1e-12));
@@ -91,7 +99,8 @@ TEST_CASE("closest points of parallel faces and edges, the rule in a tiling")
 {
     int draw = 0;
     for (int k = 0; k < 2000; ++k) {
-        const double gap = std::pow(10.0, -1.0 - 3.0 * std::fabs(random_vector(draw).x)), tilt = 1e-3 * random_vector(draw).y;
+        const double gap = std::pow(10.0, -1.0 - 3.0 * std::fabs(random_vector(draw).x)),
+                     tilt = 1e-3 * random_vector(draw).y;
         const Vec3 slide{0.9 * random_vector(draw).x, 0, 0.3 * random_vector(draw).x};
         const Polyhedron a = make_hexagonal_prism(1.0, 5.0);
         Polyhedron b = rotated(make_box({1.4, 0.7, 6.0}), from_axis_angle({0, 0, 1}, tilt));
@@ -109,13 +118,15 @@ TEST_CASE("closest points do not depend on the first guess, prisms beside a plat
     int draw = 0;
     for (int k = 0; k < 5000; ++k) {
         const Vec3 r = random_vector(draw);
-        const Polyhedron a = translated(rotated(make_hexagonal_prism(0.577e-3, 4.96e-3), from_axis_angle({0, 0, 1}, 1e-3 * r.x)),
-                                        {1e-3 * r.y, -6.8979925710503636e-3, 0});
+        const Polyhedron a =
+            translated(rotated(make_hexagonal_prism(0.577e-3, 4.96e-3), from_axis_angle({0, 0, 1}, 1e-3 * r.x)),
+                       {1e-3 * r.y, -6.8979925710503636e-3, 0});
         const Polyhedron b = make_box({1.425e-3, 0.675e-3, 5.925e-3}, {0, -7.8613938e-3 - 2e-4 * std::fabs(r.z), 0});
         if (!clip(a, b).faces.empty()) continue;
         const PlacedCore x{a.vertices.data(), 12, {}, {}}, y{b.vertices.data(), 8, {}, {}};
         const double expected = by_features(a, b);
-        for (const Vec3& guess : {Vec3{-1, -1.2, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}, random_vector(draw), random_vector(draw)}) {
+        for (const Vec3& guess :
+             {Vec3{-1, -1.2, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}, random_vector(draw), random_vector(draw)}) {
             CHECK(closest_points(x, y, guess).distance == Approx(expected).epsilon(1e-9));
         }
     }

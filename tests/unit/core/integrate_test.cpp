@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Free rotation and flight against their exact solutions.
-#include "motion/energy.h"
 #include "motion/integrate.h"
+
+#include "motion/energy.h"
 #include "support/assembly.h"
 
 using namespace grainfrac;
@@ -65,7 +66,8 @@ TEST_CASE("free rotation keeps energy without drift and the momentum in space")
         drift(a.model, a.state, 0.02);
         const double error = std::fabs(rotational_energy(a.state) / E0 - 1.0);
         (i < steps / 2 ? worst_first : worst_last) = std::max(i < steps / 2 ? worst_first : worst_last, error);
-        worst_L = std::max(worst_L, norm(rotate(a.state.bodies.orientation[0], a.state.bodies.angular_momentum[0]) - L0));
+        worst_L =
+            std::max(worst_L, norm(rotate(a.state.bodies.orientation[0], a.state.bodies.angular_momentum[0]) - L0));
     }
     CHECK(worst_first < 3e-6);
     CHECK(worst_last < 1.01 * worst_first);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cohesive law of one interface point: dissipation, reversibility, friction.
 #include "fracture/interface_law.h"
+
 #include "model/random.h"
 
 #include <catch2/catch.hpp>
@@ -42,7 +43,8 @@ struct Walker {
     void to(double n, double s1, double s2)
     {
         const InterfaceResponse r = law({n, s1, s2}, {d[0], d[1], d[2]}, k_n, k_s, 1.0, 1.0, true, false, p);
-        work += 0.5 * ((r.normal + last.normal) * (n - d[0]) + (r.shear1 + last.shear1) * (s1 - d[1]) + (r.shear2 + last.shear2) * (s2 - d[2]));
+        work += 0.5 * ((r.normal + last.normal) * (n - d[0]) + (r.shear1 + last.shear1) * (s1 - d[1]) +
+                       (r.shear2 + last.shear2) * (s2 - d[2]));
         fracture += r.fracture_work;
         friction += r.friction_work;
         least_fracture_step = std::fmin(least_fracture_step, r.fracture_work);
@@ -72,7 +74,8 @@ TEST_CASE("proportional opening dissipates the fracture energy of its mode mix")
         const double G = dissipated_at_angle(angle[i]);
         CHECK(G == Approx(expected[i]).margin(5e-7));  // the table has six decimals
         const double B = k_s * std::pow(std::sin(angle[i] * std::numbers::pi / 180), 2) /
-                         (k_n * std::pow(std::cos(angle[i] * std::numbers::pi / 180), 2) + k_s * std::pow(std::sin(angle[i] * std::numbers::pi / 180), 2));
+                         (k_n * std::pow(std::cos(angle[i] * std::numbers::pi / 180), 2) +
+                          k_s * std::pow(std::sin(angle[i] * std::numbers::pi / 180), 2));
         CHECK(G == Approx(0.03 + 0.06 * std::pow(B, 1.8)).epsilon(1e-8));
     }
 }
@@ -137,7 +140,8 @@ TEST_CASE("random smooth paths: work = stored + dissipated, no dissipation is ne
             for (int i = 1; i <= n; ++i) {
                 const double t = static_cast<double>(i) / n * 6.283185307179586;
                 w.to(3e-4 * u(0) * std::sin(t * (1 + std::floor(3 * u(1)))) + 1e-4 * (u(2) - 0.5) * std::sin(5 * t),
-                     6e-4 * u(3) * std::sin(t * (1 + std::floor(4 * u(4)))), 4e-4 * (1 - std::cos(t * (1 + std::floor(2 * u(5))))) * u(6));
+                     6e-4 * u(3) * std::sin(t * (1 + std::floor(4 * u(4)))),
+                     4e-4 * (1 - std::cos(t * (1 + std::floor(2 * u(5))))) * u(6));
             }
             error[level] = std::fabs(w.work - w.last.stored - w.fracture - w.friction);
             CHECK(w.least_friction_step >= 0.0);
