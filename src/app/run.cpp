@@ -42,9 +42,10 @@ void open_log(const std::filesystem::path& folder, const Options& o)
 void warn_about_loading(const Case& c, const Built& b, const RunRecord& record)
 {
     if (c.test.kind == "brazilian" && b.experiment.quasi_static_speed > 0.0 &&
-        c.test.platen_speed > b.experiment.quasi_static_speed) {
-        spdlog::warn("platen speed {:.3g} m/s is above the quasi-static guide 0.01 sigma_t/(rho c_0) = {:.3g} m/s",
-                     c.test.platen_speed, b.experiment.quasi_static_speed);
+        0.5 * c.test.platen_speed > b.experiment.quasi_static_speed) {
+        spdlog::warn(
+            "each platen moves at {:.3g} m/s, above the quasi-static guide 0.01 sigma_t/(rho c_0) = {:.3g} m/s",
+            0.5 * c.test.platen_speed, b.experiment.quasi_static_speed);
     }
     if (record.kinetic_over_elastic > 1e-2) {
         spdlog::warn(

@@ -26,7 +26,7 @@ struct ContactForces {
     View<std::int32_t> active;
     View<Vec3> shear_force, normal;
     View<double> twist_moment, max_overlap, offset_force, stiffness_scale, viscous_force, normal_force, stored_energy;
-    View<double> friction_work, viscous_work, hysteresis_work;
+    View<double> friction_work, viscous_work, hysteresis_work, area, footprint, normal_energy, inserted_work;
 
     GF_FN void clear(int i) const
     {
@@ -38,6 +38,7 @@ struct ContactForces {
         twist_moment[i] = max_overlap[i] = offset_force[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =
             0.0;
         stiffness_scale[i] = 1.0;
+        area[i] = footprint[i] = normal_energy[i] = 0.0;
     }
 
     /// Force that the pair's bonds put on a in their last step; their slots keep it until the bonds are evaluated
@@ -49,9 +50,11 @@ struct ContactForces {
         return f;
     }
 
-    GF_FN void take_over(int i, const ContactPoint& c, const Law& l, ContactHistory& h) const
+    /// False if the bonds left nothing: they ended open, or long ago.
+    GF_FN bool take_over(int i, const ContactPoint& c, const Law& l, ContactHistory& h) const
     {
         const Vec3 f = inherited_force(i);
+        if (norm2(f) == 0.0) return false;
         const double pressed = -dot(f, c.normal), own = l.area_stiffness * c.overlap_volume;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
@@ -61,6 +64,7 @@ struct ContactForces {
             h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
         h.max_overlap = std::fmax(0.0, l.area_stiffness * h.stiffness_scale * c.overlap_volume - h.offset_force) /
                         (l.area_stiffness * h.stiffness_scale * c.area);
+        return true;
     }
 
     GF_FN void operator()(int i) const
@@ -71,12 +75,14 @@ struct ContactForces {
             return;
         }
         const Law l = laws[law[i]];
-        ContactHistory h{shear_force[i], normal[i],       twist_moment[i],
-                         max_overlap[i], offset_force[i], stiffness_scale[i]};
+        ContactHistory h{
+            shear_force[i],     normal[i], twist_moment[i], max_overlap[i],   offset_force[i],
+            stiffness_scale[i], area[i],   footprint[i],    normal_energy[i], normal_force[i] - viscous_force[i]};
+        bool taken_over = false;
         if (active[i] == 0) {
             h = ContactHistory{};
             h.normal = c.normal;
-            if (bond_count[i] > 0) take_over(i, c, l, h);
+            taken_over = bond_count[i] > 0 && take_over(i, c, l, h);
             active[i] = 1;
         }
         const Vec3 arm_a = c.position - body.position[a[i]], arm_b = c.position - body.position[b[i]];
@@ -93,6 +99,10 @@ struct ContactForces {
         viscous_force[i] = r.viscous_force;
         friction_work[i] += r.friction_work;
         hysteresis_work[i] += r.hysteresis_work;
+        inserted_work[i] += taken_over ? r.stored : r.inserted_work;  // the bonds booked what they held as lost
+        area[i] = h.area;
+        footprint[i] = h.footprint;
+        normal_energy[i] = h.normal_energy;
         stored_energy[i] = r.stored;
         normal_force[i] = r.normal_force;
         shear_force[i] = h.shear_force;
@@ -145,7 +155,11 @@ void contact_forces(const Model& model, State& state, double dt)
                                               c.stored_energy.write(d),
                                               c.friction_work.write(d),
                                               c.viscous_work.write(d),
-                                              c.hysteresis_work.write(d)});
+                                              c.hysteresis_work.write(d),
+                                              c.area.write(d),
+                                              c.footprint.write(d),
+                                              c.normal_energy.write(d),
+                                              c.inserted_work.write(d)});
 }
 
 }  // namespace grainfrac

@@ -190,6 +190,7 @@ void find_pairs(const Model& model, State& state)
         }
         past.friction_work += old.friction_work[o];
         past.viscous_work += old.viscous_work[o];
+        past.inserted_work += old.inserted_work[o];
         past.hysteresis_work += old.hysteresis_work[o] + old.stored_energy[o];
     }
     std::vector<void*> targets;

@@ -22,6 +22,10 @@ struct ContactHistory {
     double max_overlap = 0.0;
     double offset_force = 0.0;
     double stiffness_scale = 1.0;
+    double area = 0.0;
+    double footprint = 0.0;
+    double normal_energy = 0.0;
+    double elastic_force = 0.0;  ///< p without its viscous part [N]
 };
 
 /// Motion of b against a at the contact.
@@ -40,6 +44,7 @@ struct ContactResponse {
     double stored = 0.0;           ///< [J]
     double friction_work = 0.0;    ///< of this step [J]
     double hysteresis_work = 0.0;  ///< of this step [J]
+    double inserted_work = 0.0;    ///< of this step, signed [J]
 };
 
 /// Turn a vector with the contact: tilt n_old -> n, then spin about n (angle [rad], small).
@@ -54,6 +59,9 @@ GF_FN Vec3 turn_with_contact(const Vec3& f, const Vec3& n_old, const Vec3& n, do
     const Vec3 nf = cross(n, tilted);
     return tilted + (2.0 * t / (1.0 + t * t)) * (nf + t * cross(n, nf));
 }
+
+/// Change of the footprint over the area below which it is round-off: the faces did not slide off each other.
+inline constexpr double same_footprint = 1e-12;
 
 struct LinearContact {
     double area_stiffness;  ///< k_c [Pa/m]
@@ -82,6 +90,7 @@ struct LinearContact {
             const double share = loading > 0.0 ? p / loading : 0.0;
             r.stored *= share * share / unload_factor;
         }
+        const double elastic_force = p, normal_energy = r.stored;
         if (damping_ratio > 0.0) {
             const double v_n = dot(m.velocity, c.normal);
             const double damped = std::fmax(0.0, p - 2.0 * damping_ratio * std::sqrt(K * m.reduced_mass) * v_n);
@@ -102,6 +111,14 @@ struct LinearContact {
             r.friction_work = 0.5 * dot(old_shear + shear, direction) * slip;  // mean of both ends: second order
         }
         if (K_s > 0.0) r.stored += 0.5 * norm2(shear) / K_s;
+        if (h.area > 0.0 && std::fabs(c.footprint - h.footprint) > same_footprint * c.area) {
+            // The faces slid along each other: the overlap stores more or less over the new area though nothing pushed
+            // along the slide. What the normal force did not do, and the shear spring's change of stiffness, is booked.
+            const double pushed = -0.5 * (h.elastic_force + elastic_force) * dot(m.velocity, c.normal) * dt;
+            r.inserted_work = normal_energy - h.normal_energy + r.hysteresis_work - pushed;
+            if (K_s > 0.0)
+                r.inserted_work += 0.5 * norm2(h.shear_force) * (1.0 / K_s - 1.0 / (shear_ratio * k * h.area));
+        }
 
         const double polar = 0.5 * c.area * c.twist_radius * c.twist_radius;
         const double K_t = shear_ratio * k * polar;
@@ -119,6 +136,10 @@ struct LinearContact {
         h.shear_force = shear;
         h.twist_moment = twist;
         h.normal = c.normal;
+        h.area = c.area;
+        h.footprint = c.footprint;
+        h.normal_energy = normal_energy;
+        h.elastic_force = elastic_force;
         r.twist_moment = twist;
         r.force = p * c.normal - shear;
         return r;

@@ -49,7 +49,7 @@ GF_FN double alignment(double angle2)
 
 struct Resultant {
     Vec3 normal, position;
-    double volume = 0.0, square = 0.0, area = 0.0, twist_radius = 0.0, depth = 0.0;
+    double volume = 0.0, square = 0.0, area = 0.0, twist_radius = 0.0, footprint = 0.0, depth = 0.0;
 };
 
 /// The face of the body that looks most along `direction`.
@@ -182,6 +182,15 @@ GF_FN void clip(FlatPolygon& p, const FlatPolygon& window)
     }
 }
 
+GF_FN double area_of(const FlatPolygon& p)
+{
+    double twice = 0.0;
+    for (int i = 1; i + 1 < p.count; ++i) {
+        twice += (p.x[i] - p.x[0]) * (p.y[i + 1] - p.y[0]) - (p.x[i + 1] - p.x[0]) * (p.y[i] - p.y[0]);
+    }
+    return 0.5 * twice;
+}
+
 /// Area integrals of a linear field over the part of the polygon where it is positive.
 GF_FN Resultant face_on_face(const ContactBody& a, const Facing& fa, const ContactBody& b, const Facing& fb,
                              const Vec3& near)
@@ -191,6 +200,7 @@ GF_FN Resultant face_on_face(const ContactBody& a, const Facing& fa, const Conta
     const ContactPlane plane(near, r.normal);
     FlatPolygon p = outline(a, fa.face, plane, false);
     clip(p, outline(b, fb.face, plane, true));
+    r.footprint = area_of(p);
     double a0, ax, ay, b0, bx, by;
     plane.height(fa.normal, fa.offset, a0, ax, ay);
     plane.height(fb.normal, fb.offset, b0, bx, by);
@@ -318,6 +328,7 @@ GF_FN void blend(Resultant& sum, double weight, const Resultant& r)
     sum.square += weight * r.square;
     sum.area += weight * r.area;
     sum.twist_radius += weight * r.twist_radius;
+    sum.footprint += weight * r.footprint;
     sum.depth = std::fmax(sum.depth, r.depth);
 }
 
@@ -390,6 +401,7 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
     c.overlap_square = sum.square;
     c.area = sum.area;
     c.twist_radius = sum.twist_radius;
+    c.footprint = sum.footprint;
     c.depth = sum.depth;
     return c;
 }

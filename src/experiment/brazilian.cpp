@@ -63,10 +63,12 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
 
     Experiment e;
     e.kind = "brazilian";
+    int walls[2] = {0, 0};  // top, bottom; the input's own walls come first
     for (const int sign : {1, -1}) {
         Jaw j = jaw;
         j.up = static_cast<double>(sign) * jaw.up;
         const int wall = add_wall(model, sign > 0 ? "platen_top" : "platen_bottom");
+        walls[sign > 0 ? 0 : 1] = wall;
         if (c.test.platen == "curved") {
             const double jaw_radius =
                 c.test.platen_radius > 0.0 ? c.test.platen_radius : jaw_radius_factor * 0.5 * diameter;
@@ -83,12 +85,14 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
     e.specimen.length = diameter;
     e.specimen.stress_area = 0.5 * std::numbers::pi * diameter * height;
     e.specimen.load_direction = -jaw.up;
-    e.specimen.loaded_wall = 0;
-    e.specimen.opposite_wall = 1;
+    e.specimen.loaded_wall = walls[0];
+    e.specimen.opposite_wall = walls[1];
 
     Stage load;
     load.name = "load";
-    load.wall_velocity = {-0.5 * c.test.platen_speed * jaw.up, 0.5 * c.test.platen_speed * jaw.up};
+    for (const WallSpec& w : c.walls) load.wall_velocity.push_back(w.velocity);
+    load.wall_velocity.push_back(-0.5 * c.test.platen_speed * jaw.up);
+    load.wall_velocity.push_back(0.5 * c.test.platen_speed * jaw.up);
     const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
     e.wave_speed = std::sqrt(m.young_modulus / m.density);
     load.ramp = c.test.ramp.value_or(10.0 * diameter / e.wave_speed);
@@ -102,11 +106,11 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
     }
     e.stages = {load};
 
-    // closing at failure: about 4 nominal strains sigma_t/E over the diameter, contact compliance included
+    // closing at failure: about 8 nominal strains sigma_t/E over the diameter, compliance of the contacts included
     double strength = 0.0;
     for (const BondSpec& b : c.bonds) strength = std::max(strength, b.tensile_strength);
     if (strength > 0.0)
-        e.expected_duration = 4.0 * strength / m.young_modulus * diameter / c.test.platen_speed + 0.5 * load.ramp;
+        e.expected_duration = 8.0 * strength / m.young_modulus * diameter / c.test.platen_speed + 0.5 * load.ramp;
     if (load.displacement) {
         const double by_strain = *load.displacement / c.test.platen_speed + 0.5 * load.ramp;
         e.expected_duration = e.expected_duration > 0.0 ? std::min(e.expected_duration, by_strain) : by_strain;

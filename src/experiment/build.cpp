@@ -198,7 +198,8 @@ double unbalanced_force_ratio(const State& state)
             ++acting;
         }
     }
-    return acting > 0 && sum > 0.0 ? most * acting / sum : 0.0;
+    if (acting == 0 || sum == 0.0) return most > 0.0 ? 1.0 : 0.0;  // free fall is not rest
+    return most * acting / sum;
 }
 
 }  // namespace grainfrac

@@ -33,15 +33,18 @@ Extent specimen_extent(const Model& model, const State& state)
     return e;
 }
 
-Stage make_stage(const StageSpec& s, const Model& model)
+Stage make_stage(const Case& c, const StageSpec& s, const Model& model)
 {
     Stage stage;
     stage.name = s.name;
-    stage.wall_velocity.assign(model.walls.size(), Vec3{});
+    for (const WallSpec& w : c.walls) {
+        stage.wall_velocity.push_back(w.velocity);
+        stage.ramp = std::max(stage.ramp, w.ramp);
+    }
     for (const StageMotion& m : s.motions)
         stage.wall_velocity[static_cast<std::size_t>(wall_named(model, m.wall))] = m.velocity;
-    stage.ramp = s.ramp;
-    stage.local_damping = s.local_damping;
+    if (s.ramp > 0.0) stage.ramp = s.ramp;
+    stage.local_damping = std::max(s.local_damping, c.control.local_damping);
     stage.fracture = s.fracture;
     stage.duration = s.duration;
     stage.load_drop = s.load_drop;
@@ -58,18 +61,7 @@ Experiment set_up_custom(const Case& c, Model& model, State& state)
     e.kind = "custom";
     const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
     e.wave_speed = std::sqrt(m.young_modulus / m.density);
-    for (const StageSpec& s : c.stages) e.stages.push_back(make_stage(s, model));
-    if (e.stages.empty()) {  // the walls' own motion until stop.time
-        Stage run;
-        run.name = "run";
-        for (const WallSpec& w : c.walls) {
-            run.wall_velocity.push_back(w.velocity);
-            run.ramp = std::max(run.ramp, w.ramp);
-        }
-        run.local_damping = c.control.local_damping;
-        run.duration = c.test.stop.time;
-        e.stages.push_back(run);
-    }
+    for (const StageSpec& s : c.stages) e.stages.push_back(make_stage(c, s, model));
     double longest = 0.0;
     for (const Stage& s : e.stages) {
         longest += s.duration.value_or(0.0);
@@ -84,6 +76,10 @@ Experiment set_up_custom(const Case& c, Model& model, State& state)
                 std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
         }
     }
+    Stage& last = e.stages.back();  // what stops the test stops its last stage
+    if (!last.load_drop) last.load_drop = c.test.stop.load_drop;
+    if (!last.displacement && c.test.stop.strain && e.specimen.length > 0.0)
+        last.displacement = *c.test.stop.strain * e.specimen.length;
     e.expected_duration = longest;
     if (c.test.stop.time)
         e.expected_duration = longest > 0.0 ? std::min(longest, *c.test.stop.time) : *c.test.stop.time;

@@ -98,8 +98,9 @@ void add_wall(Model& model, State& state, const WallSpec& spec)
     const int wall = add_wall(model, spec.name);
     if (spec.shape == "plate") {
         const double thickness = spec.thickness > 0.0 ? spec.thickness : 0.1 * std::max(spec.size[0], spec.size[1]);
-        add_plate(model, state, wall, spec.center, spec.normal, any_perpendicular(normalized(spec.normal)),
-                  spec.size[0], spec.size[1], thickness);
+        add_plate(model, state, wall, spec.center, spec.normal,
+                  std::fabs(normalized(spec.normal).x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, spec.size[0],
+                  spec.size[1], thickness);
         return;
     }
     const double length = spec.shape == "cylinder" ? spec.length : 0.0;

@@ -74,6 +74,8 @@ struct InterfaceForces {
     {
         if (retired[i] != 0) {
             slot.force[i] = slot.torque_a[i] = slot.torque_b[i] = Vec3{};
+            friction_work[i] +=
+                stored_energy[i];  // what it held ends with it; the contact that takes over inserts its own
             stored_energy[i] = 0.0;
             viscous_force[i] = viscous_torque_a[i] = viscous_torque_b[i] = Vec3{};
             if (slot.dyad_a.size > 0) slot.dyad_a[i] = slot.dyad_b[i] = Mat3{};

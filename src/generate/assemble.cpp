@@ -185,13 +185,12 @@ private:
             at(p.position_b, k) = in_frame(b, q.position);
             at(p.weight, k) = q.weight;
         }
-        double diameter = 0.0;
         for (const Vec3& corner : f.face->polygon) {
             state_.corners.position_a.host().push_back(in_frame(a, corner));
             state_.corners.position_b.host().push_back(in_frame(b, corner));
-            for (const Vec3& other : f.face->polygon) diameter = std::max(diameter, norm(corner - other));
         }
-        at(i.diameter, n) = diameter;
+        // of the rectangle with these moments: a face that is long in one direction has slid off after its short one
+        at(i.diameter, n) = std::sqrt(12.0 * std::min(f.moments.i1, f.moments.i2) / f.moments.area);
     }
 
     void parallel(const BondFace& f, const Vec3& center, double radius)
@@ -235,8 +234,10 @@ void scatter(const Model& model, const State& state, std::int64_t seed, double m
             // A bilinear point must keep lambda_f > lambda_0: sigma_c <= sqrt(1.8 k_n G_I) when G_c does not scale too.
             const InterfaceLaw& law = model.interface_laws[rule.law];
             if (law.softening == Softening::bilinear && !rule.weibull_scales_energy) {
-                factor = std::min(factor,
-                                  std::sqrt(1.8 * f.normal_stiffness * law.fracture_energy_I) / law.tensile_strength);
+                const double k_s = f.normal_stiffness * rule.shear_ratio;
+                factor = std::min({factor,
+                                   std::sqrt(1.8 * f.normal_stiffness * law.fracture_energy_I) / law.tensile_strength,
+                                   std::sqrt(1.8 * k_s * law.fracture_energy_II) / law.cohesion});
             }
         }
         f.strength *= factor;

@@ -152,6 +152,7 @@ void transfer_all(Transfer&& transfer, State& state, StageSettings& stage)
     transfer("/past_contacts/friction_work", state.past_contacts.friction_work);
     transfer("/past_contacts/viscous_work", state.past_contacts.viscous_work);
     transfer("/past_contacts/hysteresis_work", state.past_contacts.hysteresis_work);
+    transfer("/past_contacts/inserted_work", state.past_contacts.inserted_work);
     transfer.group("/run");
     transfer("/run/travel", state.travel);
     transfer("/run/initial_energy", state.initial_energy);

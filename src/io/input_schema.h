@@ -183,6 +183,7 @@ void describe(V& v, PartSpec& s)
        .source = "Saleme Ruiz 2016, 2.3.1"});
     v("sliver_fraction", s.sliver_fraction,
       {.range = {0.0, 0.5, false, true},
+       .used = prisms,
        .meaning = "cut cells below this share of a whole cell's volume are given to their neighbours"});
     v.table("region", s.region,
             {.required = prisms,
@@ -190,6 +191,7 @@ void describe(V& v, PartSpec& s)
              .meaning = "where the grains are; a brazilian test takes the specimen's size from it"});
     v("at_region_boundary", s.at_region_boundary,
       {.words = "keep | cut",
+       .used = prisms,
        .meaning = "keep: whole grains whose centre is inside; cut: grains are cut by the region's surface"});
     v.table("orientation", s.orientation,
             {.used = {has_orientation},
@@ -209,8 +211,8 @@ void describe(V& v, BondSpec& s)
     v("between", s.between, {.meaning = "two names of parts, materials or walls, or `*`"});
     v("law", s.law,
       {.words = "interface | parallel | point",
-       .meaning =
-           "interface: integrated over the shared face; parallel: circular parallel bond; point: one spring a face",
+       .meaning = "interface: integrated over the shared face; parallel: circular parallel bond; point: one a corner "
+                  "of the face",
        .source = "parallel: Potyondy & Cundall 2004; point: Saleme Ruiz 2016, 2.3.3"});
     v("normal_stiffness", s.normal_stiffness,
       {.unit = "Pa/m",
@@ -337,15 +339,6 @@ void describe(V& v, ContactSpec& s)
        .source = "hysteretic: Walton & Braun 1986"});
     v("restitution", s.restitution,
       {.range = share_above_0, .meaning = "coefficient of restitution e of a head-on collision"});
-    v("rolling_friction", s.rolling_friction,
-      {.range = not_negative,
-       .meaning = "rolling resistance of contacts at a single point",
-       .source = "Saleme Ruiz 2016, eq. 2.5"});
-    v("reference_area", s.reference_area,
-      {.unit = "m^2",
-       .range = positive,
-       .unset = "a quarter of the smaller face",
-       .meaning = "area A_ref that a contact at a single point stands for"});
 }
 
 template <class V>
@@ -365,7 +358,7 @@ void describe(V& v, WallSpec& s)
        .range = positive,
        .required = always,
        .used = plate,
-       .meaning = "extents along its two in-plane directions"});
+       .meaning = "extents in its plane: first along x (along y if the normal is along x), then across"});
     v("thickness", s.thickness,
       {.unit = "m", .range = not_negative, .used = plate, .meaning = "0: a tenth of the larger extent"});
     v("radius", s.radius,
@@ -388,7 +381,7 @@ template <class V>
 void describe(V& v, StageSpec& s)
 {
     v("name", s.name, {.required = always, .meaning = "for the log and the results; letters, digits, `_`, `-`"});
-    v.array("move", s.motions, {.meaning = "walls that move in this stage; those not named stand still"});
+    v.array("move", s.motions, {.meaning = "walls that move in this stage; those not named keep their own velocity"});
     v("ramp", s.ramp, {.unit = "s", .range = not_negative, .meaning = "time over which the speeds change smoothly"});
     v("local_damping", s.local_damping,
       {.range = share_below_1,
@@ -488,7 +481,7 @@ void describe(V& v, OutputSpec& s)
     v("every", s.every,
       {.unit = "s",
        .range = positive,
-       .unset = "first and last state only, or `snapshots`",
+       .unset = "a twentieth of the expected run, or `snapshots`",
        .meaning = "simulated time between snapshots"});
     v("snapshots", s.snapshots,
       {.range = {1.0, 1e6},
@@ -497,7 +490,7 @@ void describe(V& v, OutputSpec& s)
     v("history", s.history,
       {.unit = "s",
        .range = positive,
-       .unset = "a thousandth of the run, or 100 steps",
+       .unset = "1/2000 of the expected run, or 100 steps",
        .meaning = "simulated time between rows of history.csv"});
     v("checkpoint", s.checkpoint,
       {.unit = "s", .range = not_negative, .meaning = "wall time between checkpoints; 0: never"});

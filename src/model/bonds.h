@@ -23,7 +23,7 @@ struct InterfaceBonds {
     Buffer<Vec3> normal_a, normal_b;    ///< unit normal from a to b, in the frames of a and b [-]
     Buffer<Vec3> tangent_a, tangent_b;  ///< first tangent, in the frames of a and b [-]
     Buffer<double> area;                ///< [m^2]
-    Buffer<double> diameter;            ///< of the face polygon [m]
+    Buffer<double> diameter;            ///< least width of the face polygon [m]
     Buffer<double> normal_stiffness;    ///< k_n per area [Pa/m]
     Buffer<double> shear_stiffness;     ///< k_s per area [Pa/m]
     Buffer<double> normal_damping;      ///< c_n per area [Pa s/m]

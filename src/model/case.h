@@ -101,8 +101,6 @@ struct ContactSpec {
     double friction = 0.3;                   ///< [-]
     std::string dissipation = "hysteretic";  ///< hysteretic (unload factor 1/e^2) | viscous | none
     double restitution = 1.0;                ///< e [-]
-    double rolling_friction = 0.0;           ///< mu_r, single-point contacts [-]
-    std::optional<double> reference_area;    ///< A_ref of point contacts [m^2]; auto: a quarter of the smaller face
 };
 
 struct WallSpec {

@@ -18,6 +18,7 @@ struct ContactPoint {
     double area = 0.0;            ///< of the manifold, reference area for points and lines [m^2]
     double twist_radius = 0.0;    ///< radius of the circle of equal area; 0 for points and lines [m]
     double depth = 0.0;           ///< largest penetration [m]
+    double footprint = 0.0;       ///< area that the two faces share, pressed or not; 0 for points and lines [m^2]
 };
 
 struct Contacts {
@@ -41,6 +42,11 @@ struct Contacts {
     Buffer<double> friction_work;    ///< [J]
     Buffer<double> viscous_work;     ///< [J]
     Buffer<double> hysteresis_work;  ///< [J]
+    Buffer<double> area;             ///< of the manifold at the last evaluation [m^2]
+    Buffer<double> footprint;        ///< of the last evaluation [m^2]
+    Buffer<double> normal_energy;    ///< stored in the overlap at the last evaluation [J]
+    Buffer<double>
+        inserted_work;  ///< stored energy that a change of the manifold made (+) or took (-) without work [J]
 
     int size() const { return a.size(); }
 
@@ -72,6 +78,10 @@ struct Contacts {
         visit("friction_work", friction_work);
         visit("viscous_work", viscous_work);
         visit("hysteresis_work", hysteresis_work);
+        visit("area", area);
+        visit("footprint", footprint);
+        visit("normal_energy", normal_energy);
+        visit("inserted_work", inserted_work);
     }
 };
 

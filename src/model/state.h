@@ -35,7 +35,7 @@ struct Incidence {
 
 /// Energies of contacts that left the neighbour list [J].
 struct PastContacts {
-    double friction_work = 0.0, viscous_work = 0.0, hysteresis_work = 0.0;
+    double friction_work = 0.0, viscous_work = 0.0, hysteresis_work = 0.0, inserted_work = 0.0;
 };
 
 struct State {

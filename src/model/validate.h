@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Is this state possible? After every change of topology, and at every history row.
+// Is this state possible? After building, before every checkpoint, and when an energy is not finite.
 #pragma once
 
 #include "model/model.h"

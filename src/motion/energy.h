@@ -16,8 +16,8 @@ struct Ledger {
     double damping = 0.0;           ///< D_visc + D_hyst + D_local [J]
     double external = 0.0;          ///< W_ext, driven bodies [J]
     double gravity = 0.0;           ///< W_g [J]
-    double inserted = 0.0;          ///< W_ins, offsets of new surfaces [J]
-    double initial = 0.0;           ///< E_0 [J]
+    double inserted = 0.0;  ///< W_ins, stored energy that no work made: changes of contact manifolds, signed [J]
+    double initial = 0.0;   ///< E_0 [J]
 
     /// What was put in less what is found [J].
     double residual() const

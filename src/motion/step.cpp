@@ -50,8 +50,8 @@ void start(const Model& model, State& state)
     bond_forces(model, state, 0.0);
     gather_forces(model, state);
     state.initial_energy = 0.0;
-    const Ledger e = energy_ledger(model, state);
-    state.initial_energy = e.kinetic + e.elastic_bonds + e.elastic_contacts;
+    state.initial_energy =
+        -energy_ledger(model, state).residual();  // what overlaps and motion at the start hold or lost
 }
 
 }  // namespace grainfrac

@@ -244,10 +244,11 @@ TEST_CASE("energy account: below 1e-3 through fracture; before it, four times le
 
     Built b = build(coarse_case(), default_device());
     begin(b);
-    const double dt = stable_step(b);
+    // 46 grains, violent: every onset cuts a corner of the traction-jump curve, an error of second order in the step
+    const double dt = stable_step(b, 0.4);
     double worst = 0;
     for (int i = 0; i < 100; ++i) {
-        run_steps(b, dt, 100);
+        run_steps(b, dt, 200);
         if (i > 5) worst = std::max(worst, energy_ledger(b.model, b.state).relative_error());
     }
     CHECK(break_sequence(b.state).size() > 3);
