@@ -41,7 +41,8 @@ void add_case_options(CLI::App& command, Options& o)
 std::vector<std::string> with_command(int argc, char** argv)
 {
     std::vector<std::string> args(argv + 1, argv + argc);
-    static const std::vector<std::string> commands = {"run", "generate", "check", "info"};
+    static const std::vector<std::string> commands = {"run",    "generate", "check",    "info",
+                                                      "resume", "report",   "calibrate"};
     if (!args.empty() && args.front().front() != '-' &&
         std::find(commands.begin(), commands.end(), args.front()) == commands.end()) {
         args.insert(args.begin(), "run");
@@ -104,6 +105,10 @@ int main(int argc, char** argv)
     check->footer("Example: grainfrac check disc.toml");
 
     auto* info = app.add_subcommand("info", "version, build options and devices; or what a result folder holds");
+    for (const char* later : {"resume", "report", "calibrate"}) {
+        auto* command = app.add_subcommand(later, "not available in this version")->group("")->prefix_command();
+        command->callback([later] { throw CLI::ValidationError(later, "is not available in this version"); });
+    }
     std::string folder;
     info->add_option("DIR", folder, "result folder");
     info->footer("Example: grainfrac info brazilian.out");

@@ -6,10 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
 namespace grainfrac {
@@ -44,20 +42,6 @@ ChosenStep choose_time_step(const Case& c, const Model& model, const State& stat
 {
     const TimeStepBound bound = time_step_bound(model, state);
     ChosenStep s{0.0, bound.with_damping, bound.limiter};
-    if (bound.body < 0) {
-        // Nothing acts yet (free flight): the stiffest contact law on the lightest grain with its point area.
-        double largest = 0.0;
-        for (int i = 0; i < state.bodies.size(); ++i) {
-            if (state.bodies.inverse_mass[i] == 0.0) continue;
-            for (const LinearContact& law : model.contact_laws.host()) {
-                const double area = 4.0 * model.shapes.point_area[state.bodies.shape[i]];
-                largest =
-                    std::fmax(largest, law.area_stiffness * law.unload_factor * area * state.bodies.inverse_mass[i]);
-            }
-        }
-        s.limiter = "contact laws (nothing touches yet)";
-        if (largest > 0.0) s.critical = 0.5 / std::sqrt(largest);
-    }
     if (c.control.time_step) {
         if (s.critical > 0.0 && *c.control.time_step > s.critical) {
             throw InputError("control.time_step",

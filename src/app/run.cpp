@@ -13,7 +13,9 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 namespace grainfrac {
@@ -46,6 +48,18 @@ void warn_about_loading(const Case& c, const Built& b, const RunRecord& record)
         spdlog::warn(
             "each platen moves at {:.3g} m/s, above the quasi-static guide 0.01 sigma_t/(rho c_0) = {:.3g} m/s",
             0.5 * c.test.platen_speed, b.experiment.quasi_static_speed);
+    }
+    const Ledger e = energy_ledger(b.model, b.state);
+    const double scale = std::max({std::fabs(e.external), e.kinetic, e.initial});
+    if (std::fabs(e.inserted) > 1e-3 * scale) {
+        spdlog::warn(
+            "changes of contact manifolds (faces sliding off each other, tilting onto edges) made {:.2g} of the "
+            "largest energy",
+            e.inserted / scale);
+    }
+    if (e.relative_error() > 1e-3) {
+        spdlog::warn("the energy account is off by {:.2g} of its largest term; lower control.time_step_safety",
+                     e.relative_error());
     }
     if (record.kinetic_over_elastic > 1e-2) {
         spdlog::warn(

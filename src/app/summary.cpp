@@ -17,6 +17,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Faces listed one by one in the order in which they broke; all of them are in results.h5.
+constexpr std::size_t listed_breaks = 100;
+
 json vector_json(const Vec3& a)
 {
     return {a.x, a.y, a.z};
@@ -68,6 +71,12 @@ json cracks_json(const std::vector<CrackFace>& cracks, const RunRecord& record)
                       {"position_m", vector_json(center_of(first))},
                       {"before_peak", first.time <= record.peak_time}};
     }
+    json sequence = json::array();
+    for (const CrackFace& c : cracks) {
+        if (sequence.size() == listed_breaks) break;
+        sequence.push_back({{"time_s", c.time}, {"position_m", vector_json(center_of(c))}, {"cause", names[c.cause]}});
+    }
+    j["sequence"] = sequence;
     return j;
 }
 
@@ -104,6 +113,7 @@ json energy_json(const Ledger& e, const RunRecord& record)
             {"external_work_J", e.external},
             {"gravity_work_J", e.gravity},
             {"inserted_J", e.inserted},
+            {"inserted_over_external", e.external != 0.0 ? e.inserted / e.external : 0.0},
             {"initial_J", e.initial},
             {"residual_J", e.residual()},
             {"relative_error", e.relative_error()},

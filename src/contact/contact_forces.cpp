@@ -25,7 +25,8 @@ struct ContactForces {
     View<const ContactPoint> point;
     View<std::int32_t> active;
     View<Vec3> shear_force, normal;
-    View<double> twist_moment, max_overlap, offset_force, stiffness_scale, viscous_force, normal_force, stored_energy;
+    View<double> twist_moment, max_overlap, max_energy, offset_force, stiffness_scale, viscous_force, normal_force,
+        stored_energy;
     View<double> friction_work, viscous_work, hysteresis_work, area, footprint, normal_energy, inserted_work;
 
     GF_FN void clear(int i) const
@@ -35,8 +36,8 @@ struct ContactForces {
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
         active[i] = 0;
         shear_force[i] = Vec3{};
-        twist_moment[i] = max_overlap[i] = offset_force[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =
-            0.0;
+        twist_moment[i] = max_overlap[i] = max_energy[i] = offset_force[i] = viscous_force[i] = normal_force[i] =
+            stored_energy[i] = 0.0;
         stiffness_scale[i] = 1.0;
         area[i] = footprint[i] = normal_energy[i] = 0.0;
     }
@@ -62,8 +63,6 @@ struct ContactForces {
             h.offset_force = own - std::fmax(0.0, pressed);
         else
             h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
-        h.max_overlap = std::fmax(0.0, l.area_stiffness * h.stiffness_scale * c.overlap_volume - h.offset_force) /
-                        (l.area_stiffness * h.stiffness_scale * c.area);
         return true;
     }
 
@@ -75,9 +74,17 @@ struct ContactForces {
             return;
         }
         const Law l = laws[law[i]];
-        ContactHistory h{
-            shear_force[i],     normal[i], twist_moment[i], max_overlap[i],   offset_force[i],
-            stiffness_scale[i], area[i],   footprint[i],    normal_energy[i], normal_force[i] - viscous_force[i]};
+        ContactHistory h{shear_force[i],
+                         normal[i],
+                         twist_moment[i],
+                         max_overlap[i],
+                         max_energy[i],
+                         offset_force[i],
+                         stiffness_scale[i],
+                         area[i],
+                         footprint[i],
+                         normal_energy[i],
+                         normal_force[i] - viscous_force[i]};
         bool taken_over = false;
         if (active[i] == 0) {
             h = ContactHistory{};
@@ -99,7 +106,8 @@ struct ContactForces {
         viscous_force[i] = r.viscous_force;
         friction_work[i] += r.friction_work;
         hysteresis_work[i] += r.hysteresis_work;
-        inserted_work[i] += taken_over ? r.stored : r.inserted_work;  // the bonds booked what they held as lost
+        inserted_work[i] += taken_over ? r.stored + r.friction_work + r.hysteresis_work
+                                       : r.inserted_work;  // the bonds booked what they held as lost
         area[i] = h.area;
         footprint[i] = h.footprint;
         normal_energy[i] = h.normal_energy;
@@ -109,6 +117,7 @@ struct ContactForces {
         normal[i] = h.normal;
         twist_moment[i] = h.twist_moment;
         max_overlap[i] = h.max_overlap;
+        max_energy[i] = h.max_energy;
         offset_force[i] = h.offset_force;
         stiffness_scale[i] = h.stiffness_scale;
 
@@ -148,6 +157,7 @@ void contact_forces(const Model& model, State& state, double dt)
                                               c.normal.write(d),
                                               c.twist_moment.write(d),
                                               c.max_overlap.write(d),
+                                              c.max_energy.write(d),
                                               c.offset_force.write(d),
                                               c.stiffness_scale.write(d),
                                               c.viscous_force.write(d),

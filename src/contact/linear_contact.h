@@ -2,7 +2,9 @@
 // Contact of two bodies that are not bonded: linear in the overlap, hysteretic or viscous, Coulomb friction.
 //
 //   loading    p_s = k_c V,  V the overlap volume: the penetration integrated over the manifold
-//   unloading  p_s = <C K (u - u_p)>,  u = V/A, K = k_c A, u_p = u_max (1 - 1/C), C = 1/e^2  (Walton and Braun 1986)
+//   unloading  p_s = <C k_c (V - V_p)>,  V_p = V_max (1 - 1/C), C = 1/e^2  (Walton and Braun 1986, in volumes, so that
+//   a
+//              contact whose area grows is not taken for one that unloads)
 //   viscous    p = <p_s - c_n v_n>,  c_n = 2 zeta sqrt(K m*)
 //   shear      F_t += K_s v_t dt, |F_t| <= mu p;  F_t is a history and turns with the contact (Rodrigues form)
 //   twist      about the normal of an area contact, M += k_s J w_n dt, |M| <= 2/3 mu p R
@@ -20,6 +22,7 @@ struct ContactHistory {
     Vec3 normal;
     double twist_moment = 0.0;
     double max_overlap = 0.0;
+    double max_energy = 0.0;
     double offset_force = 0.0;
     double stiffness_scale = 1.0;
     double area = 0.0;
@@ -81,11 +84,13 @@ struct LinearContact {
         double p = loading;
         r.stored = h.offset_force > 0.0 ? 0.5 * loading * u : k * c.overlap_square;
         if (unload_factor > 1.0) {
-            if (u >= h.max_overlap) {
-                r.hysteresis_work = 0.5 * (1.0 - 1.0 / unload_factor) * K * (u * u - h.max_overlap * h.max_overlap);
-                h.max_overlap = u;
+            const double volume = loading / k;
+            if (volume >= h.max_overlap) {
+                r.hysteresis_work = std::fmax(0.0, (1.0 - 1.0 / unload_factor) * (r.stored - h.max_energy));
+                h.max_overlap = volume;
+                h.max_energy = std::fmax(h.max_energy, r.stored);
             } else {
-                p = std::fmax(0.0, unload_factor * K * (u - h.max_overlap * (1.0 - 1.0 / unload_factor)));
+                p = std::fmax(0.0, unload_factor * k * (volume - h.max_overlap * (1.0 - 1.0 / unload_factor)));
             }
             const double share = loading > 0.0 ? p / loading : 0.0;
             r.stored *= share * share / unload_factor;

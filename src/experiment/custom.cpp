@@ -44,7 +44,7 @@ Stage make_stage(const Case& c, const StageSpec& s, const Model& model)
     for (const StageMotion& m : s.motions)
         stage.wall_velocity[static_cast<std::size_t>(wall_named(model, m.wall))] = m.velocity;
     if (s.ramp > 0.0) stage.ramp = s.ramp;
-    stage.local_damping = std::max(s.local_damping, c.control.local_damping);
+    stage.local_damping = s.local_damping.value_or(c.control.local_damping);
     stage.fracture = s.fracture;
     stage.duration = s.duration;
     stage.load_drop = s.load_drop;

@@ -33,7 +33,7 @@ struct InterfaceForces {
     View<const double> weight;
 
     View<std::int32_t> retired;
-    View<double> damage, stored_energy, fracture_work, friction_work, viscous_work, shear_share;
+    View<double> damage, stored_energy, fracture_work, friction_work, viscous_work, inserted_work, shear_share;
     View<double> first_damage_time, failure_time;
     View<Vec3> viscous_force, viscous_torque_a, viscous_torque_b;
     View<double> point_damage, point_onset, point_failure;
@@ -313,6 +313,7 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt)
             i.fracture_work.write(d),
             i.friction_work.write(d),
             i.viscous_work.write(d),
+            i.inserted_work.write(d),
             i.shear_share.write(d),
             i.first_damage_time.write(d),
             i.failure_time.write(d),

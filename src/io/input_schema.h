@@ -219,8 +219,7 @@ void describe(V& v, BondSpec& s)
        .range = positive,
        .unset = "from `elasticity`, E and the distance h of the centres",
        .meaning = "stiffness per area k_n"});
-    v("shear_ratio", s.shear_ratio,
-      {.range = not_negative, .unset = "from `elasticity` and nu", .meaning = "k_s / k_n"});
+    v("shear_ratio", s.shear_ratio, {.range = positive, .unset = "from `elasticity` and nu", .meaning = "k_s / k_n"});
     v("elasticity", s.elasticity,
       {.words = "homogeneous | plane | solid",
        .meaning = "rule of `auto`: homogeneous k_n = k_s = E/h (nu = 0, exact); plane: honeycomb in plane stress, nu < "
@@ -385,6 +384,7 @@ void describe(V& v, StageSpec& s)
     v("ramp", s.ramp, {.unit = "s", .range = not_negative, .meaning = "time over which the speeds change smoothly"});
     v("local_damping", s.local_damping,
       {.range = share_below_1,
+       .unset = "control.local_damping",
        .meaning = "alpha of the local non-viscous damping in this stage; for settling only",
        .source = "Cundall 1987"});
     v("fracture", s.fracture, {.meaning = "bonds may break in this stage"});

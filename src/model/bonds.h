@@ -38,6 +38,7 @@ struct InterfaceBonds {
     Buffer<double> fracture_work;                     ///< dissipated by damage so far [J]
     Buffer<double> friction_work;                     ///< dissipated by slip so far [J]
     Buffer<double> viscous_work;                      ///< dissipated by dashpots so far [J]
+    Buffer<double> inserted_work;                     ///< minus what it held when it was handed over [J]
     Buffer<double> shear_share;                       ///< integral of mode mix B over damage and area [m^2]
     Buffer<double> first_damage_time;                 ///< -1 before [s]
     Buffer<double> failure_time;                      ///< all points at D = 1; -1 before [s]
@@ -73,6 +74,7 @@ struct InterfaceBonds {
         visit("fracture_work", fracture_work);
         visit("friction_work", friction_work);
         visit("viscous_work", viscous_work);
+        visit("inserted_work", inserted_work);
         visit("shear_share", shear_share);
         visit("first_damage_time", first_damage_time);
         visit("failure_time", failure_time);

@@ -125,7 +125,7 @@ struct StageSpec {
     std::string name;
     std::vector<StageMotion> motions;              ///< walls that are not named stand still
     double ramp = 0.0;                             ///< [s]
-    double local_damping = 0.0;                    ///< [-]
+    std::optional<double> local_damping;           ///< default: control.local_damping [-]
     bool fracture = true;                          ///< bonds may break in this stage
     std::optional<double> duration;                ///< [s]
     std::optional<double> unbalanced_force_ratio;  ///< ends below this [-]

@@ -33,7 +33,8 @@ struct Contacts {
     Buffer<Vec3> shear_force;        ///< F_t on a, world frame [N]
     Buffer<Vec3> normal;             ///< of the last evaluation [-]
     Buffer<double> twist_moment;     ///< about the normal, on a [N m]
-    Buffer<double> max_overlap;      ///< largest mean penetration of this contact's life [m]
+    Buffer<double> max_overlap;      ///< largest overlap volume of this contact's life, less its offset [m^3]
+    Buffer<double> max_energy;       ///< elastic energy there [J]
     Buffer<double> offset_force;     ///< taken off so that a hand-over makes no force [N]
     Buffer<double> stiffness_scale;  ///< multiplies k_c for the life of a handed-over contact [-]
     Buffer<double> viscous_force;    ///< along the normal, of the last evaluation [N]
@@ -70,6 +71,7 @@ struct Contacts {
         visit("normal", normal);
         visit("twist_moment", twist_moment);
         visit("max_overlap", max_overlap);
+        visit("max_energy", max_energy);
         visit("offset_force", offset_force);
         visit("stiffness_scale", stiffness_scale);
         visit("viscous_force", viscous_force);

@@ -2,6 +2,7 @@
 #include "model/shapes.h"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -18,8 +19,9 @@ void open_lists(Shapes& s)
     s.loop_begin.host() = {0};
 }
 
-int close_shape(Shapes& s, double radius, double point_area, double bounding_radius)
+int close_shape(Shapes& s, double radius, double point_area, double largest_face, double bounding_radius)
 {
+    s.largest_face.host().push_back(largest_face);
     s.radius.host().push_back(radius);
     s.point_area.host().push_back(point_area);
     s.bounding_radius.host().push_back(bounding_radius);
@@ -34,7 +36,7 @@ int close_shape(Shapes& s, double radius, double point_area, double bounding_rad
 int add_shape(Shapes& shapes, const Polyhedron& core, double radius)
 {
     open_lists(shapes);
-    double reach = 0.0, faces_area = 0.0;
+    double reach = 0.0, faces_area = 0.0, largest_face = 0.0;
     for (const Vec3& v : core.vertices) reach = std::max(reach, norm(v));
     std::set<std::pair<int, int>> edges;
     for (std::size_t f = 0; f < core.faces.size(); ++f) {
@@ -47,7 +49,9 @@ int add_shape(Shapes& shapes, const Polyhedron& core, double radius)
         shapes.face_offsets.host().push_back(core.planes[f].offset);
         shapes.loops.host().insert(shapes.loops.host().end(), loop.begin(), loop.end());
         shapes.loop_begin.host().push_back(shapes.loops.size());
-        faces_area += norm(area_vector(face_polygon(core, static_cast<int>(f))));
+        const double area = norm(area_vector(face_polygon(core, static_cast<int>(f))));
+        faces_area += area;
+        largest_face = std::max(largest_face, area);
         for (std::size_t k = 0; k < loop.size(); ++k) edges.insert(std::minmax(loop[k], loop[(k + 1) % loop.size()]));
     }
     for (const auto& [from, to] : edges) shapes.edges.host().push_back({from, to});
@@ -56,14 +60,14 @@ int add_shape(Shapes& shapes, const Polyhedron& core, double radius)
     // A quarter of the mean face: the smallest one of a cut grain may be next to nothing, and contacts with it too
     // soft.
     const double mean_face = core.faces.empty() ? 0.0 : faces_area / static_cast<double>(core.faces.size());
-    return close_shape(shapes, radius, 0.25 * mean_face, reach + radius);
+    return close_shape(shapes, radius, 0.25 * mean_face, largest_face, reach + radius);
 }
 
 int add_sphere_shape(Shapes& shapes, double radius)
 {
     open_lists(shapes);
     shapes.vertices.host().push_back({});
-    return close_shape(shapes, radius, 0.0, radius);
+    return close_shape(shapes, radius, 0.0, std::numbers::pi * radius * radius, radius);
 }
 
 int add_cylinder_shape(Shapes& shapes, const Vec3& axis, double length, double radius)
@@ -72,7 +76,7 @@ int add_cylinder_shape(Shapes& shapes, const Vec3& axis, double length, double r
     shapes.vertices.host().push_back(-0.5 * length * axis);
     shapes.vertices.host().push_back(0.5 * length * axis);
     shapes.edges.host().push_back({0, 1});
-    return close_shape(shapes, radius, 0.0, 0.5 * length + radius);
+    return close_shape(shapes, radius, 0.0, 2.0 * radius * length, 0.5 * length + radius);
 }
 
 ShapesView view(const Shapes& s, Device device)

@@ -21,6 +21,7 @@ struct Shapes {
     Buffer<double> radius;           ///< dilation radius rho [m]
     Buffer<double> bounding_radius;  ///< of the dilated body about its centre of mass [m]
     Buffer<double> point_area;       ///< reference area of point contacts; 0 where the shape has no face [m^2]
+    Buffer<double> largest_face;     ///< area of the core's largest face, point_area for round shapes [m^2]
     Buffer<std::int32_t> vertex_begin, edge_begin, face_begin;
     Buffer<Vec3> vertices;  ///< [m]
     Buffer<Edge> edges;
@@ -37,6 +38,7 @@ struct Shapes {
         visit("radius", radius);
         visit("bounding_radius", bounding_radius);
         visit("point_area", point_area);
+        visit("largest_face", largest_face);
         visit("vertex_begin", vertex_begin);
         visit("edge_begin", edge_begin);
         visit("face_begin", face_begin);

@@ -38,7 +38,7 @@ double Ledger::relative_error() const
 {
     const double scale =
         std::max({std::fabs(external), std::fabs(gravity), kinetic, elastic_bonds + elastic_contacts, initial});
-    return scale > 0.0 ? std::fabs(residual()) / scale : 0.0;
+    return scale > 0.0 && std::fabs(residual()) > negligible ? std::fabs(residual()) / scale : 0.0;
 }
 
 Ledger energy_ledger(const Model& model, const State& state)
@@ -59,7 +59,7 @@ Ledger energy_ledger(const Model& model, const State& state)
     e.friction = total(d, i.friction_work) + total(d, c.friction_work) + past.friction_work;
     e.damping = total(d, i.viscous_work) + total(d, p.viscous_work) + total(d, c.viscous_work) + past.viscous_work +
                 total(d, c.hysteresis_work) + past.hysteresis_work + total(d, b.damping_work);
-    e.inserted = total(d, c.inserted_work) + past.inserted_work;
+    e.inserted = total(d, i.inserted_work) + total(d, c.inserted_work) + past.inserted_work;
     e.external = total(d, b.external_work);
     e.gravity = total(d, b.gravity_work);
     e.initial = state.initial_energy;

@@ -19,6 +19,8 @@ struct Ledger {
     double inserted = 0.0;  ///< W_ins, stored energy that no work made: changes of contact manifolds, signed [J]
     double initial = 0.0;   ///< E_0 [J]
 
+    double negligible = 0.0;  ///< a residual below this is round-off [J]
+
     /// What was put in less what is found [J].
     double residual() const
     {

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace grainfrac {
@@ -111,7 +112,7 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         Vec3 arm[2] = {p.position - b.position[bodies[0]], p.position - b.position[bodies[1]]}, normal = p.normal;
         if (with_wall)
             area = std::fmax(
-                area, 4.0 * model.shapes.point_area[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
+                area, model.shapes.largest_face[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
         if (p.overlap_volume <= 0.0) {  // where it will touch is not known yet: through the centre, square to the gap
             const ShapesView shapes = view(model.shapes, Device::cpu);
             const ContactBody x{shapes, b.shape[bodies[0]], b.position[bodies[0]], b.orientation[bodies[0]]};
@@ -164,15 +165,47 @@ double damping_at(const State& state, const Model& model, double omega)
         const double k = p.normal_stiffness[i] * CircularSection(p.radius[i]).area;
         if (p.cause[i] == 0) worst = std::fmax(worst, 0.5 * omega * p.normal_damping[i] / k);
     }
+    // a contact's dashpot is 2 zeta sqrt(K m*): whatever its area, its ratio at omega >= sqrt(K/m*) is at most zeta
     const Contacts& c = state.contacts;
-    for (int i = 0; i < c.size(); ++i) {
-        const LinearContact law = model.contact_laws[c.law[i]];
-        const double k = law.area_stiffness * c.point[i].area;
-        if (law.damping_ratio <= 0.0 || k <= 0.0) continue;
-        const double m = reduced_mass(state.bodies.inverse_mass[c.a[i]], state.bodies.inverse_mass[c.b[i]]);
-        worst = std::fmax(worst, law.damping_ratio * omega * std::sqrt(m / k));
-    }
+    for (int i = 0; i < c.size(); ++i) worst = std::fmax(worst, model.contact_laws[c.law[i]].damping_ratio);
     return worst;
+}
+
+/// Steps that the collision of a loose body takes at least; fewer, and its rebound is wrong though the run is stable.
+constexpr double steps_per_collision = 50.0;
+/// Part of its dilation radius that a loose body may move in a step; more, and it may pass into the other's core.
+constexpr double travel_per_step = 0.1;
+
+/// Bodies without bonds live on impacts: resolve half the period of the stiffest contact they may have, and their
+/// speed.
+void limit_for_loose_bodies(const Model& model, const State& state, TimeStepBound& bound)
+{
+    const Bodies& b = state.bodies;
+    std::vector<char> bonded(static_cast<std::size_t>(b.size()), 0);
+    const auto mark = [&](const auto& bonds) {
+        for (int i = 0; i < bonds.size(); ++i)
+            bonded[static_cast<std::size_t>(bonds.a[i])] = bonded[static_cast<std::size_t>(bonds.b[i])] = 1;
+    };
+    mark(state.interfaces);
+    mark(state.parallels);
+    double stiffest = 0.0;
+    for (const LinearContact& law : model.contact_laws.host())
+        stiffest = std::fmax(stiffest, law.area_stiffness * law.unload_factor);
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.inverse_mass[i] == 0.0 || bonded[static_cast<std::size_t>(i)] != 0) continue;
+        const double K = stiffest * model.shapes.largest_face[b.shape[i]];
+        const double collision =
+            K > 0.0 ? std::numbers::pi / std::sqrt(K * b.inverse_mass[i]) / steps_per_collision : 0.0;
+        const double speed = norm(b.velocity[i]);
+        const double passage = speed > 0.0 ? travel_per_step * model.shapes.radius[b.shape[i]] / speed : 0.0;
+        for (const double limit : {collision, passage}) {
+            if (limit <= 0.0 || (bound.critical > 0.0 && limit >= bound.critical)) continue;
+            bound.critical = limit;
+            bound.body = i;
+            bound.limiter =
+                "body " + std::to_string(b.id[i]) + (limit == collision ? ", its collisions" : ", its speed");
+        }
+    }
 }
 
 }  // namespace
@@ -193,12 +226,15 @@ TimeStepBound time_step_bound(const Model& model, const State& state)
             bound.body = i;
         }
     }
-    if (bound.body < 0) return bound;  // nothing acts yet: the caller takes the contact laws' own scale
-    bound.critical = std::sqrt(2.0 / largest);
+    if (bound.body >= 0) {
+        bound.critical = std::sqrt(2.0 / largest);
+        bound.limiter = "body " + std::to_string(state.bodies.id[bound.body]) +
+                        ", stiffest spring: " + s.source[static_cast<std::size_t>(bound.body)];
+    }
+    limit_for_loose_bodies(model, state, bound);
+    if (bound.body < 0) return bound;
     const double zeta = damping_at(state, model, 2.0 / bound.critical);
     bound.with_damping = bound.critical * (std::sqrt(1.0 + zeta * zeta) - zeta);
-    bound.limiter = "body " + std::to_string(state.bodies.id[bound.body]) +
-                    ", stiffest spring: " + s.source[static_cast<std::size_t>(bound.body)];
     return bound;
 }
 
