@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -73,11 +74,14 @@ TEST_CASE(
     const Outcome first = w.run("run " + example + shorter + " --threads 2 --out a");
     INFO(first.err);
     REQUIRE(first.code == 0);
-    for (const char* file :
-         {"input.toml", "resolved.toml", "run.log", "summary.json", "history.csv", "results.h5", "paraview/grains.pvd",
+    std::vector<std::string> files = {"input.toml", "resolved.toml", "run.log", "summary.json", "history.csv", "results.h5", "paraview/grains.pvd",
           "paraview/bonds.pvd", "paraview/contacts.pvd", "paraview/cracks.pvd", "paraview/walls.pvd",
           "paraview/view.py", "plots/load_displacement.svg", "plots/load_displacement.png", "plots/energies.svg",
-          "plots/crack_map.svg"}) {
+          "plots/crack_map.svg"};
+#ifndef GF_HAVE_VTK
+    std::erase_if(files, [](const std::string& f) { return f.find(".pvd") != std::string::npos; });
+#endif
+    for (const std::string& file : files) {
         CHECK(fs::exists(w.folder / "a" / file));
     }
     const nlohmann::json s = w.summary("a");
@@ -204,7 +208,7 @@ TEST_CASE("SIGTERM and SIGINT stop the run after a checkpoint")
             execl(program.c_str(), program.c_str(), example.c_str(), "--threads", "1", static_cast<char*>(nullptr));
             _exit(98);
         }
-        for (int i = 0; i < 400 && !fs::exists(w.folder / "brazilian.out/paraview/grains.pvd"); ++i)
+        for (int i = 0; i < 400 && !fs::exists(w.folder / "brazilian.out/history.csv"); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         REQUIRE(kill(child, signal) == 0);
