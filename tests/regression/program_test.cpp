@@ -74,10 +74,22 @@ TEST_CASE(
     const Outcome first = w.run("run " + example + shorter + " --threads 2 --out a");
     INFO(first.err);
     REQUIRE(first.code == 0);
-    std::vector<std::string> files = {"input.toml", "resolved.toml", "run.log", "summary.json", "history.csv", "results.h5", "paraview/grains.pvd",
-          "paraview/bonds.pvd", "paraview/contacts.pvd", "paraview/cracks.pvd", "paraview/walls.pvd",
-          "paraview/view.py", "plots/load_displacement.svg", "plots/load_displacement.png", "plots/energies.svg",
-          "plots/crack_map.svg"};
+    std::vector<std::string> files = {"input.toml",
+                                      "resolved.toml",
+                                      "run.log",
+                                      "summary.json",
+                                      "history.csv",
+                                      "results.h5",
+                                      "paraview/grains.pvd",
+                                      "paraview/bonds.pvd",
+                                      "paraview/contacts.pvd",
+                                      "paraview/cracks.pvd",
+                                      "paraview/walls.pvd",
+                                      "paraview/view.py",
+                                      "plots/load_displacement.svg",
+                                      "plots/load_displacement.png",
+                                      "plots/energies.svg",
+                                      "plots/crack_map.svg"};
 #ifndef GF_HAVE_VTK
     std::erase_if(files, [](const std::string& f) { return f.find(".pvd") != std::string::npos; });
 #endif
