@@ -100,10 +100,6 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
     load.duration = c.test.stop.time;
     load.load_drop = c.test.stop.load_drop;
     if (c.test.stop.strain) load.displacement = *c.test.stop.strain * diameter;
-    if (!load.duration && !load.load_drop && !load.displacement) {
-        load.load_drop = 0.5;
-        load.displacement = 0.02 * diameter;
-    }
     e.stages = {load};
 
     // closing at failure: about 8 nominal strains sigma_t/E over the diameter, compliance of the contacts included
