@@ -25,9 +25,8 @@ struct ContactForces {
     View<const ContactPoint> point;
     View<std::int32_t> active;
     View<Vec3> shear_force, normal;
-    View<double> twist_moment, max_overlap, max_energy, offset_force, stiffness_scale, viscous_force, normal_force,
-        stored_energy;
-    View<double> friction_work, viscous_work, hysteresis_work, area, footprint, normal_energy, inserted_work;
+    View<double> twist_moment, max_overlap, offset_overlap, stiffness_scale, viscous_force, normal_force, stored_energy;
+    View<double> friction_work, viscous_work, hysteresis_work, shear_stiffness, twist_stiffness, inserted_work;
 
     GF_FN void clear(int i) const
     {
@@ -36,10 +35,9 @@ struct ContactForces {
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
         active[i] = 0;
         shear_force[i] = Vec3{};
-        twist_moment[i] = max_overlap[i] = max_energy[i] = offset_force[i] = viscous_force[i] = normal_force[i] =
-            stored_energy[i] = 0.0;
+        twist_moment[i] = max_overlap[i] = offset_overlap[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =
+            shear_stiffness[i] = twist_stiffness[i] = 0.0;
         stiffness_scale[i] = 1.0;
-        area[i] = footprint[i] = normal_energy[i] = 0.0;
     }
 
     /// Force that the pair's bonds put on a in their last step; their slots keep it until the bonds are evaluated
@@ -56,11 +54,11 @@ struct ContactForces {
     {
         const Vec3 f = inherited_force(i);
         if (norm2(f) == 0.0) return false;
-        const double pressed = -dot(f, c.normal), own = l.area_stiffness * c.overlap_volume;
+        const double pressed = std::fmax(0.0, -dot(f, c.normal)), own = l.area_stiffness * c.overlap_force;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
         if (pressed <= own)
-            h.offset_force = own - std::fmax(0.0, pressed);
+            h.offset_overlap = (1.0 - pressed / own) * std::sqrt(2.0 * c.overlap_energy);
         else
             h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
         return true;
@@ -69,22 +67,13 @@ struct ContactForces {
     GF_FN void operator()(int i) const
     {
         const ContactPoint c = point[i];
-        if (c.overlap_volume <= 0.0) {
+        if (c.overlap_energy <= 0.0) {
             clear(i);
             return;
         }
         const Law l = laws[law[i]];
-        ContactHistory h{shear_force[i],
-                         normal[i],
-                         twist_moment[i],
-                         max_overlap[i],
-                         max_energy[i],
-                         offset_force[i],
-                         stiffness_scale[i],
-                         area[i],
-                         footprint[i],
-                         normal_energy[i],
-                         normal_force[i] - viscous_force[i]};
+        ContactHistory h{shear_force[i],    normal[i],          twist_moment[i],    max_overlap[i],
+                         offset_overlap[i], stiffness_scale[i], shear_stiffness[i], twist_stiffness[i]};
         bool taken_over = false;
         if (active[i] == 0) {
             h = ContactHistory{};
@@ -106,26 +95,24 @@ struct ContactForces {
         viscous_force[i] = r.viscous_force;
         friction_work[i] += r.friction_work;
         hysteresis_work[i] += r.hysteresis_work;
-        inserted_work[i] += taken_over ? r.stored + r.friction_work + r.hysteresis_work
-                                       : r.inserted_work;  // the bonds booked what they held as lost
-        area[i] = h.area;
-        footprint[i] = h.footprint;
-        normal_energy[i] = h.normal_energy;
+        // the bonds booked what they held as lost
+        if (taken_over) inserted_work[i] += r.stored + r.friction_work + r.hysteresis_work;
+        shear_stiffness[i] = h.shear_stiffness;
+        twist_stiffness[i] = h.twist_stiffness;
         stored_energy[i] = r.stored;
         normal_force[i] = r.normal_force;
         shear_force[i] = h.shear_force;
         normal[i] = h.normal;
         twist_moment[i] = h.twist_moment;
         max_overlap[i] = h.max_overlap;
-        max_energy[i] = h.max_energy;
-        offset_force[i] = h.offset_force;
+        offset_overlap[i] = h.offset_overlap;
         stiffness_scale[i] = h.stiffness_scale;
 
         const int s = first_slot + i;
-        const Vec3 couple = r.twist_moment * c.normal;
+        const Vec3 couple = r.couple * c.normal;
         slot.force[s] = r.force;
-        slot.torque_a[s] = couple - cross(arm_a, r.force);
-        slot.torque_b[s] = cross(arm_b, r.force) - couple;
+        slot.torque_a[s] = -couple - cross(arm_a, r.force);
+        slot.torque_b[s] = cross(arm_b, r.force) + couple;
         if (slot.dyad_a.size > 0) {
             slot.dyad_a[s] = Mat3::outer(arm_a, -r.force);
             slot.dyad_b[s] = Mat3::outer(arm_b, r.force);
@@ -157,8 +144,7 @@ void contact_forces(const Model& model, State& state, double dt)
                                               c.normal.write(d),
                                               c.twist_moment.write(d),
                                               c.max_overlap.write(d),
-                                              c.max_energy.write(d),
-                                              c.offset_force.write(d),
+                                              c.offset_overlap.write(d),
                                               c.stiffness_scale.write(d),
                                               c.viscous_force.write(d),
                                               c.normal_force.write(d),
@@ -166,9 +152,8 @@ void contact_forces(const Model& model, State& state, double dt)
                                               c.friction_work.write(d),
                                               c.viscous_work.write(d),
                                               c.hysteresis_work.write(d),
-                                              c.area.write(d),
-                                              c.footprint.write(d),
-                                              c.normal_energy.write(d),
+                                              c.shear_stiffness.write(d),
+                                              c.twist_stiffness.write(d),
                                               c.inserted_work.write(d)});
 }
 

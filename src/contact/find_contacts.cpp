@@ -49,7 +49,7 @@ struct PenetrationTerm {
     View<const ContactPoint> point;
     GF_FN double operator()(int i) const
     {
-        return point[i].depth > 0.0 && point[i].overlap_volume <= 0.0 ? i + 1.0 : 0.0;
+        return point[i].depth > 0.0 && point[i].overlap_energy <= 0.0 ? i + 1.0 : 0.0;
     }
 };
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of two bodies that are not bonded: linear in the overlap, hysteretic or viscous, Coulomb friction.
 //
-//   loading    p_s = k_c V,  V the overlap volume: the penetration integrated over the manifold
-//   unloading  p_s = <C k_c (V - V_p)>,  V_p = V_max (1 - 1/C), C = 1/e^2  (Walton and Braun 1986, in volumes, so that
-//   a
-//              contact whose area grows is not taken for one that unloads)
-//   viscous    p = <p_s - c_n v_n>,  c_n = 2 zeta sqrt(K m*)
+//   overlap    h = <sqrt(2 U) - h_0>, U the potential of the manifold: h^2 = A g^2 for faces pressed by g
+//   loading    E = k_c h^2/2
+//   unloading  E = C k_c <h - h_p>^2/2,  h_p = h_max (1 - 1/C), C = 1/e^2  (Walton and Braun 1986)
+//   normal     p = dE/dh |dh/dx|: k_c A g, and C k_c A (g - g_p); its couple by the same rule. E is a function of the
+//              position on either branch, so a contact whose area changes makes no energy; what loading takes is lost.
+//   viscous    p = <p_s - c_n v_n>,  c_n = 2 zeta sqrt(K m*), K = k_c A
 //   shear      F_t += K_s v_t dt, |F_t| <= mu p;  F_t is a history and turns with the contact (Rodrigues form)
 //   twist      about the normal of an area contact, M += k_s J w_n dt, |M| <= 2/3 mu p R
-// K is the stiffness of the manifold: k_c A for faces, k_c A_ref for points and lines.
+// A spring whose area grows keeps its force, one whose area shrinks its stretch: both lose energy, to friction (the new
+// part is unstretched, the lost part slips).
 #pragma once
 
 #include "geometry/vec3.h"
@@ -22,13 +24,10 @@ struct ContactHistory {
     Vec3 normal;
     double twist_moment = 0.0;
     double max_overlap = 0.0;
-    double max_energy = 0.0;
-    double offset_force = 0.0;
+    double offset_overlap = 0.0;
     double stiffness_scale = 1.0;
-    double area = 0.0;
-    double footprint = 0.0;
-    double normal_energy = 0.0;
-    double elastic_force = 0.0;  ///< p without its viscous part [N]
+    double shear_stiffness = 0.0;
+    double twist_stiffness = 0.0;
 };
 
 /// Motion of b against a at the contact.
@@ -41,13 +40,12 @@ struct ContactMotion {
 
 struct ContactResponse {
     Vec3 force;                    ///< on b [N]
-    double twist_moment = 0.0;     ///< on a about n; b gets the opposite [N m]
+    double couple = 0.0;           ///< on b about n; a gets the opposite [N m]
     double normal_force = 0.0;     ///< p [N]
     double viscous_force = 0.0;    ///< on b along n [N]
     double stored = 0.0;           ///< [J]
     double friction_work = 0.0;    ///< of this step [J]
     double hysteresis_work = 0.0;  ///< of this step [J]
-    double inserted_work = 0.0;    ///< of this step, signed [J]
 };
 
 /// Turn a vector with the contact: tilt n_old -> n, then spin about n (angle [rad], small).
@@ -63,8 +61,17 @@ GF_FN Vec3 turn_with_contact(const Vec3& f, const Vec3& n_old, const Vec3& n, do
     return tilted + (2.0 * t / (1.0 + t * t)) * (nf + t * cross(n, nf));
 }
 
-/// Change of the footprint over the area below which it is round-off: the faces did not slide off each other.
-inline constexpr double same_footprint = 1e-12;
+/// What a spring keeps of its force when its stiffness goes from `before` to `now`, and the energy that is lost.
+struct ReshapedSpring {
+    double share = 1.0, lost = 0.0;
+
+    GF_FN ReshapedSpring(double force2, double before, double now)
+    {
+        if (before <= 0.0) return;
+        share = std::fmin(1.0, now / before);
+        lost = 0.5 * force2 * (1.0 / before - (now > 0.0 ? share * share / now : 0.0));
+    }
+};
 
 struct LinearContact {
     double area_stiffness;  ///< k_c [Pa/m]
@@ -78,24 +85,23 @@ struct LinearContact {
         ContactResponse r;
         const double k = area_stiffness * h.stiffness_scale;
         const double K = k * c.area;
-        const double loading = std::fmax(0.0, k * c.overlap_volume - h.offset_force);
-        const double u = loading / K;  // mean penetration of a face, penetration of a point [m]
+        const double root = std::sqrt(2.0 * c.overlap_energy);
+        const double overlap = std::fmax(0.0, root - h.offset_overlap);
 
-        double p = loading;
-        r.stored = h.offset_force > 0.0 ? 0.5 * loading * u : k * c.overlap_square;
+        double stiffness = k, rest = 0.0;  // E = stiffness/2 (overlap - rest)^2
         if (unload_factor > 1.0) {
-            const double volume = loading / k;
-            if (volume >= h.max_overlap) {
-                r.hysteresis_work = std::fmax(0.0, (1.0 - 1.0 / unload_factor) * (r.stored - h.max_energy));
-                h.max_overlap = volume;
-                h.max_energy = std::fmax(h.max_energy, r.stored);
-            } else {
-                p = std::fmax(0.0, unload_factor * k * (volume - h.max_overlap * (1.0 - 1.0 / unload_factor)));
+            const double lost = 1.0 - 1.0 / unload_factor;
+            if (overlap > h.max_overlap) {
+                r.hysteresis_work = 0.5 * k * lost * (overlap * overlap - h.max_overlap * h.max_overlap);
+                h.max_overlap = overlap;
             }
-            const double share = loading > 0.0 ? p / loading : 0.0;
-            r.stored *= share * share / unload_factor;
+            stiffness = unload_factor * k;  // on the loading branch both give the same force
+            rest = h.max_overlap * lost;
         }
-        const double elastic_force = p, normal_energy = r.stored;
+        const double stretch = std::fmax(0.0, overlap - rest);
+        r.stored = 0.5 * stiffness * stretch * stretch;
+        const double scale = stiffness * stretch / root;
+        double p = scale * c.overlap_force;
         if (damping_ratio > 0.0) {
             const double v_n = dot(m.velocity, c.normal);
             const double damped = std::fmax(0.0, p - 2.0 * damping_ratio * std::sqrt(K * m.reduced_mass) * v_n);
@@ -105,7 +111,10 @@ struct LinearContact {
         r.normal_force = p;
 
         const double K_s = shear_ratio * K;
+        const ReshapedSpring shear_spring(norm2(h.shear_force), h.shear_stiffness, K_s);
+        r.friction_work = shear_spring.lost;
         const Vec3 old_shear =
+            shear_spring.share *
             tangential(turn_with_contact(h.shear_force, h.normal, c.normal, dot(m.mean_spin, c.normal) * dt), c.normal);
         Vec3 shear = old_shear + (K_s * dt) * tangential(m.velocity, c.normal);
         const double pull = norm(shear);
@@ -113,39 +122,32 @@ struct LinearContact {
             const double slip = K_s > 0.0 ? (pull - friction * p) / K_s : 0.0;
             const Vec3 direction = shear * (1.0 / pull);
             shear = (friction * p) * direction;
-            r.friction_work = 0.5 * dot(old_shear + shear, direction) * slip;  // mean of both ends: second order
+            r.friction_work += 0.5 * dot(old_shear + shear, direction) * slip;  // mean of both ends: second order
         }
         if (K_s > 0.0) r.stored += 0.5 * norm2(shear) / K_s;
-        if (h.area > 0.0 && std::fabs(c.footprint - h.footprint) > same_footprint * c.area) {
-            // The faces slid along each other: the overlap stores more or less over the new area though nothing pushed
-            // along the slide. What the normal force did not do, and the shear spring's change of stiffness, is booked.
-            const double pushed = -0.5 * (h.elastic_force + elastic_force) * dot(m.velocity, c.normal) * dt;
-            r.inserted_work = normal_energy - h.normal_energy + r.hysteresis_work - pushed;
-            if (K_s > 0.0)
-                r.inserted_work += 0.5 * norm2(h.shear_force) * (1.0 / K_s - 1.0 / (shear_ratio * k * h.area));
-        }
 
         const double polar = 0.5 * c.area * c.twist_radius * c.twist_radius;
         const double K_t = shear_ratio * k * polar;
+        const ReshapedSpring twist_spring(h.twist_moment * h.twist_moment, h.twist_stiffness, K_t);
+        r.friction_work += twist_spring.lost;
         double twist = 0.0;
         if (K_t > 0.0) {
-            twist = h.twist_moment + K_t * m.twist_rate * dt;
+            const double old_twist = twist_spring.share * h.twist_moment;
+            twist = old_twist + K_t * m.twist_rate * dt;
             const double cap = 2.0 / 3.0 * friction * p * c.twist_radius;
             if (std::fabs(twist) > cap) {
                 const double kept = twist > 0.0 ? cap : -cap;
-                r.friction_work += 0.5 * (h.twist_moment + kept) * (twist - kept) / K_t;
+                r.friction_work += 0.5 * (old_twist + kept) * (twist - kept) / K_t;
                 twist = kept;
             }
             r.stored += 0.5 * twist * twist / K_t;
         }
         h.shear_force = shear;
+        h.shear_stiffness = K_s;
         h.twist_moment = twist;
+        h.twist_stiffness = K_t;
         h.normal = c.normal;
-        h.area = c.area;
-        h.footprint = c.footprint;
-        h.normal_energy = normal_energy;
-        h.elastic_force = elastic_force;
-        r.twist_moment = twist;
+        r.couple = scale * c.overlap_couple - twist;
         r.force = p * c.normal - shear;
         return r;
     }

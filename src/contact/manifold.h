@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One manifold per pair of dilated convex bodies.
+// One manifold per pair of dilated convex bodies, as a potential: U(relative position) with its exact gradient.
 //
-// Two faces against each other touch over the polygon they share: the penetration is a linear field over it, and the
-// part with g > 0 is integrated exactly, so that a tilted pair transmits a moment and sliding changes the force
-// continuously. A face and an edge, or two parallel edges, touch along a segment; all else at one point. Segments and
-// points carry the stiffness of a reference area. Between the regimes the resultants are blended over the angles
-// psi .. 2 psi: switching at one angle would make the force jump.
+// The elastic energy of a contact is k_c U. Every force is a derivative of U, so that no motion, be it tilting, rolling
+// off an edge or sliding off a face, makes or loses energy. With g_p the penetration of the cores' closest points and
+// V, S, Q the moments of the penetration (overlap.h), summed over all faces that look at each other there:
+//
+//   U   = S_faces + fade(A/A_0) A_ref/2 [(1 - chi) g_p^2 + chi G^2]
+//   A   = V^2/(2 S) of the faces: the area of a uniform pressure
+//   G   = 2 S/V, the mean of g weighted with g;  r^2 = 12 Q/V, the length of a line pressed uniformly: both of the
+//   faces
+//         and of edges side by side
+//   fade(x) = (1 - x)^2 for x < 1;  chi = 1 - fade(r^2/l_0^2)
+//
+// Faces pressed over more than A_0 have nothing but U = S: the force is k_c times the overlap volume. As they tilt or
+// slide off, A goes to zero and the reference stiffness takes over: spread along the line while the contact is long
+// (chi = 1, so that an edge that lies on a face or along another does not tip from end to end), at the closest points
+// once it is short. Where no faces look at each other and no edges lie side by side, U = A_ref g_p^2/2.
 #pragma once
 
+#include "contact/overlap.h"
 #include "geometry/gjk.h"
 #include "model/contacts.h"
 #include "model/shapes.h"
 
-#include <numbers>
-
 namespace grainfrac {
-
-/// A face counts as lying against a direction within this angle [rad]; the blend ends at twice this. Larger smears
-/// corners into faces, smaller makes the change of regime stiff.
-inline constexpr double face_angle = std::numbers::pi / 180.0;
 
 /// Cores nearer than this share of the summed dilation radii are penetrating: an error state, never extrapolated.
 inline constexpr double core_contact_share = 1e-6;
@@ -40,297 +45,334 @@ struct ContactBody {
 
 namespace manifold_detail {
 
-/// 1 within `face_angle`, 0 beyond twice that, for the squared angle.
-GF_FN double alignment(double angle2)
-{
-    const double inner = face_angle * face_angle, outer = 4.0 * inner;
-    return std::fmin(1.0, std::fmax(0.0, (outer - angle2) / (outer - inner)));
-}
+/// A_0 over A_ref: the sum of the two stiffnesses then never falls by more than 6 % while an area grows from nothing.
+constexpr double full_face = 1.5;
+/// l_0 over sqrt(A_ref): half an edge of the face that A_ref is a quarter of.
+constexpr double full_line = 1.0;
+/// Cosines of the tilt between which faces stop to count as facing each other (37 and 60 degrees).
+constexpr double facing_cosine = 0.8, turned_cosine = 0.5;
+/// Squared sine of a tilt below which it is round-off.
+constexpr double same_plane = 1e-20;
+/// Faces that look along the contact's normal less than this cannot face one of the other body across the contact.
+constexpr double least_facing = 0.3;
+/// Squared sines of the angle between which edges stop to count as lying side by side (2 and 8 degrees).
+constexpr double parallel_sine2 = 1.2e-3, crossing_sine2 = 1.9e-2;
+/// Edges nearer to a window's edge than this, over the squared length of that edge, are the window's.
+constexpr double same_edge = 1e-9;
 
-struct Resultant {
-    Vec3 normal, position;
-    double volume = 0.0, square = 0.0, area = 0.0, twist_radius = 0.0, footprint = 0.0, depth = 0.0;
-};
-
-/// The face of the body that looks most along `direction`.
-struct Facing {
-    int face = -1;        // into the shape table
-    Vec3 normal;          // world
-    double offset = 0.0;  // normal . x on the core's face, world [m]
-    double weight = 0.0;  // alignment with the direction
-};
-
-GF_FN Facing facing(const ContactBody& body, const Vec3& direction)
-{
-    const Vec3 d = rotate_back(body.orientation, direction);
-    Facing best;
-    double most = -2.0;
-    for (int f = body.shapes.face_begin[body.shape]; f < body.shapes.face_begin[body.shape + 1]; ++f) {
-        const double c = dot(body.shapes.face_normals[f], d);
-        if (c > most) {
-            most = c;
-            best.face = f;
-        }
-    }
-    if (best.face < 0) return best;
-    best.normal = rotate(body.orientation, body.shapes.face_normals[best.face]);
-    best.offset = body.shapes.face_offsets[best.face] + dot(best.normal, body.position);
-    const Vec3 miss = cross(best.normal, direction);  // its length is the sine of the angle: accurate near zero
-    best.weight = most > 0.0 ? alignment(norm2(miss)) : 0.0;
-    return best;
-}
-
-/// The supporting edge of the body most square to `direction`, and where it is.
-struct Rim {
-    Vec3 from, to;
-    double weight = 0.0;
-};
-
-GF_FN Rim rim(const ContactBody& body, const Vec3& direction)
-{
-    const ShapesView& s = body.shapes;
-    const PlacedCore core = body.core();
-    const Vec3 d = rotate_back(body.orientation, direction);
-    const double top = dot(core.vertices[core.support(direction)], d);
-    const double tolerance = 1e-9 * s.bounding_radius[body.shape];
-    Rim best;
-    double least = 2.0;
-    for (int e = s.edge_begin[body.shape]; e < s.edge_begin[body.shape + 1]; ++e) {
-        const Vec3 p = core.vertices[s.edges[e].from], q = core.vertices[s.edges[e].to];
-        const double hp = dot(p, d), hq = dot(q, d);
-        if (std::fmax(hp, hq) < top - tolerance) continue;
-        const double tilt2 = (hp - hq) * (hp - hq) / norm2(q - p);
-        if (tilt2 < least - 1e-12) {
-            least = tilt2;
-            best.from = body.position + rotate(body.orientation, p);
-            best.to = body.position + rotate(body.orientation, q);
-        }
-    }
-    if (least < 2.0) best.weight = alignment(least);
-    return best;
-}
-
-/// Polygon in the contact plane with room for two clipped faces.
-struct FlatPolygon {
-    static constexpr int room = 2 * max_face_vertices + 2;
-    double x[room], y[room];
+/// The faces of a body that may be in contact: those that look along `direction` and are at its closest point.
+struct FacingFaces {
+    static constexpr int room = 8;
+    int face[room];  // into the shape table
     int count = 0;
-
-    GF_FN void add(double px, double py)
-    {
-        if (count < room) {
-            x[count] = px;
-            y[count] = py;
-            ++count;
-        }
-    }
 };
 
-/// Part of p where c0 + cx x + cy y >= 0.
-GF_FN void clip(FlatPolygon& p, double c0, double cx, double cy)
+GF_FN FacingFaces facing(const ContactBody& body, const Vec3& direction, const Vec3& closest, double reach)
 {
-    FlatPolygon kept;
-    for (int i = 0; i < p.count; ++i) {
-        const int j = i + 1 < p.count ? i + 1 : 0;
-        const double hi = c0 + cx * p.x[i] + cy * p.y[i], hj = c0 + cx * p.x[j] + cy * p.y[j];
-        if (hi >= 0.0) kept.add(p.x[i], p.y[i]);
-        if ((hi > 0.0 && hj < 0.0) || (hi < 0.0 && hj > 0.0)) {
-            const double t = hi / (hi - hj);
-            kept.add(p.x[i] + t * (p.x[j] - p.x[i]), p.y[i] + t * (p.y[j] - p.y[i]));
-        }
+    const Vec3 d = rotate_back(body.orientation, direction), x = rotate_back(body.orientation, closest - body.position);
+    FacingFaces found;
+    for (int f = body.shapes.face_begin[body.shape]; f < body.shapes.face_begin[body.shape + 1]; ++f) {
+        const Vec3 n = body.shapes.face_normals[f];
+        if (dot(n, d) > least_facing && body.shapes.face_offsets[f] - dot(n, x) < reach && found.count < found.room)
+            found.face[found.count++] = f;
     }
-    p = kept;
+    return found;
 }
 
-/// Plane of the contact: origin and two directions, right-handed with the normal.
-struct ContactPlane {
-    Vec3 origin, e1, e2, normal;
-
-    GF_FN ContactPlane(const Vec3& o, const Vec3& n) : origin(o), e1(any_perpendicular(n)), e2(cross(n, e1)), normal(n)
-    {
-    }
-    /// Height field of a plane nf . x = offset over this plane: height = c0 + cx x + cy y.
-    GF_FN void height(const Vec3& nf, double offset, double& c0, double& cx, double& cy) const
-    {
-        const double s = 1.0 / dot(nf, normal);
-        c0 = (offset - dot(nf, origin)) * s;
-        cx = -dot(nf, e1) * s;
-        cy = -dot(nf, e2) * s;
-    }
+struct Plane {
+    Vec3 normal;
+    double offset = 0.0;  // normal . x, world [m]
 };
 
-/// Face outline in the contact plane; `mirrored` faces are added backwards so that all run counter-clockwise.
-GF_FN FlatPolygon outline(const ContactBody& body, int face, const ContactPlane& plane, bool mirrored)
+GF_FN Plane plane_of(const ContactBody& body, int face)
+{
+    Plane p;
+    p.normal = rotate(body.orientation, body.shapes.face_normals[face]);
+    p.offset = body.shapes.face_offsets[face] + dot(p.normal, body.position);
+    return p;
+}
+
+GF_FN bool has_one_edge(const ContactBody& body)
+{
+    return body.shapes.edge_begin[body.shape + 1] - body.shapes.edge_begin[body.shape] == 1;
+}
+
+/// Projection of a face's outline along the plane's normal; `backwards` for the face that looks at the plane, so that
+/// both run counter-clockwise.
+GF_FN FlatPolygon outline(const ContactBody& body, int face, const Vec3& origin, const Vec3& e1, const Vec3& e2,
+                          bool backwards)
 {
     const ShapesView& s = body.shapes;
     FlatPolygon p;
     const int begin = s.loop_begin[face], end = s.loop_begin[face + 1], first = s.vertex_begin[body.shape];
     for (int k = begin; k < end; ++k) {
-        const int at = mirrored ? end - 1 - (k - begin) : k;
-        const Vec3 v = body.position + rotate(body.orientation, s.vertices[first + s.loops[at]]) - plane.origin;
-        p.add(dot(v, plane.e1), dot(v, plane.e2));
+        const int at = backwards ? end - 1 - (k - begin) : k;
+        const Vec3 v = body.position + rotate(body.orientation, s.vertices[first + s.loops[at]]) - origin;
+        p.add(dot(v, e1), dot(v, e2), backwards);
     }
     return p;
 }
 
-GF_FN void clip(FlatPolygon& p, const FlatPolygon& window)
+/// Two faces over the plane of a's; points from `about`.
+GF_FN FaceOverlap face_overlap(const ContactBody& a, int face_a, const Plane& pa, const ContactBody& b, int face_b,
+                               const Plane& pb, const Vec3& about)
 {
-    for (int i = 0; i < window.count && p.count > 0; ++i) {
+    FaceOverlap o;
+    o.N = pa.normal;
+    o.beta = -pb.normal;
+    o.cosine = dot(o.beta, o.N);
+    o.origin = (pa.offset - dot(o.N, about)) * o.N;  // foot of `about`
+    o.e1 = any_perpendicular(o.N);
+    o.e2 = cross(o.N, o.e1);
+    o.z0 = (-pb.offset - dot(o.beta, about + o.origin)) / o.cosine;
+    o.zx = -dot(o.beta, o.e1) / o.cosine;
+    o.zy = -dot(o.beta, o.e2) / o.cosine;
+    o.g0 = a.radius() + b.radius() - o.z0;
+    o.gx = -o.zx;
+    o.gy = -o.zy;
+    o.p = outline(b, face_b, about, o.e1, o.e2, true);
+    const FlatPolygon window = outline(a, face_a, about, o.e1, o.e2, false);
+    for (int i = 0; i < window.count && o.p.count > 0; ++i) {
         const int j = i + 1 < window.count ? i + 1 : 0;
         const double dx = window.x[j] - window.x[i], dy = window.y[j] - window.y[i];
-        clip(p, dy * window.x[i] - dx * window.y[i], -dy, dx);
+        clip(o.p, dy * window.x[i] - dx * window.y[i], -dy, dx, same_edge * (dx * dx + dy * dy));
     }
+    clip(o.p, o.g0, o.gx, o.gy);
+    return o;
 }
 
-GF_FN double area_of(const FlatPolygon& p)
-{
-    double twice = 0.0;
-    for (int i = 1; i + 1 < p.count; ++i) {
-        twice += (p.x[i] - p.x[0]) * (p.y[i + 1] - p.y[0]) - (p.x[i + 1] - p.x[0]) * (p.y[i] - p.y[0]);
-    }
-    return 0.5 * twice;
-}
+/// Two faces, over the plane of either. g is the true distance if the edge in contact is the other body's, else too
+/// small, so each plane counts by what it finds:
+///   V = (V_1^2 + V_2^2)/(V_1 + V_2),   S = (S_1 V_1 + S_2 V_2)/(V_1 + V_2),   Q alike
+/// and both the same where the faces are parallel.
+struct FacePair {
+    FaceOverlap over[2];
+    OverlapMoments part[2], m;
+    double total = 0.0;                       // V_1 + V_2; 0: nothing in contact
+    double weight = 0.0, weight_slope = 0.0;  // by the cosine of the tilt
 
-/// Area integrals of a linear field over the part of the polygon where it is positive.
-GF_FN Resultant face_on_face(const ContactBody& a, const Facing& fa, const ContactBody& b, const Facing& fb,
-                             const Vec3& near)
-{
-    Resultant r;
-    r.normal = normalized(fa.normal - fb.normal);
-    const ContactPlane plane(near, r.normal);
-    FlatPolygon p = outline(a, fa.face, plane, false);
-    clip(p, outline(b, fb.face, plane, true));
-    r.footprint = area_of(p);
-    double a0, ax, ay, b0, bx, by;
-    plane.height(fa.normal, fa.offset, a0, ax, ay);
-    plane.height(fb.normal, fb.offset, b0, bx, by);
-    const double g0 = a.radius() + b.radius() + a0 - b0, gx = ax - bx, gy = ay - by;
-    clip(p, g0, gx, gy);
-    double mx = 0.0, my = 0.0;
-    for (int i = 1; i + 1 < p.count; ++i) {
-        const double x[3] = {p.x[0], p.x[i], p.x[i + 1]}, y[3] = {p.y[0], p.y[i], p.y[i + 1]};
-        const double area = 0.5 * ((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]));
-        double g[3];
-        for (int k = 0; k < 3; ++k) {
-            g[k] = std::fmax(0.0, g0 + gx * x[k] + gy * y[k]);
-            r.depth = std::fmax(r.depth, g[k]);
+    GF_FN FacePair() {}
+    GF_FN FacePair(const ContactBody& a, int face_a, const ContactBody& b, int face_b, const Vec3& about)
+    {
+        const Plane pa = plane_of(a, face_a), pb = plane_of(b, face_b);
+        const double cosine = -dot(pa.normal, pb.normal);
+        if (cosine <= turned_cosine) return;
+        const double t = std::fmin(1.0, (cosine - turned_cosine) / (facing_cosine - turned_cosine));
+        weight = t * t * (3.0 - 2.0 * t);
+        weight_slope = 6.0 * t * (1.0 - t) / (facing_cosine - turned_cosine);
+        over[0] = face_overlap(a, face_a, pa, b, face_b, pb, about);
+        part[0] = over[0].moments();
+        if (norm2(cross(pa.normal, pb.normal)) > same_plane) {
+            over[1] = face_overlap(b, face_b, pb, a, face_a, pa, about);
+            part[1] = over[1].moments();
         }
-        const double sum = g[0] + g[1] + g[2];
-        r.area += area;
-        r.volume += area / 3.0 * sum;
-        r.square += area / 12.0 * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2] + g[0] * g[1] + g[1] * g[2] + g[2] * g[0]);
-        for (int k = 0; k < 3; ++k) {
-            mx += area / 12.0 * x[k] * (g[k] + sum);
-            my += area / 12.0 * y[k] * (g[k] + sum);
+        total = part[0].V + part[1].V;
+        for (int k = 0; k < 2 && total > 0.0; ++k) m.add(part[k], part[k].V / total);
+    }
+
+    /// -dU on b.
+    GF_FN Wrench wrench(const OverlapSlopes& U) const
+    {
+        Wrench w;
+        for (int k = 0; k < 2; ++k) {
+            if (part[k].V <= 0.0) continue;
+            const double share = weight * part[k].V / total;
+            OverlapSlopes slope;
+            slope.S = U.S * share;
+            slope.Q = U.Q * share;
+            slope.V = U.V * share +
+                      weight / total * (U.V * (part[k].V - m.V) + U.S * (part[k].S - m.S) + U.Q * (part[k].Q - m.Q));
+            w.add(over[k].wrench(slope), k == 0 ? 1.0 : -1.0);
         }
+        if (weight_slope > 0.0) {  // d cos = theta . (beta x N)
+            w.moment += -weight_slope * (U.V * m.V + U.S * m.S + U.Q * m.Q) * cross(over[0].beta, over[0].N);
+        }
+        return w;
     }
-    if (r.volume <= 0.0 || r.area <= 0.0) return {};
-    const double cx = mx / r.volume, cy = my / r.volume;
-    const double middle = 0.5 * (a0 + ax * cx + ay * cy + a.radius() + b0 + bx * cx + by * cy - b.radius());
-    r.position = plane.origin + cx * plane.e1 + cy * plane.e2 + middle * r.normal;
-    r.twist_radius = std::sqrt(r.area / std::numbers::pi);
-    return r;
-}
+};
 
-/// Line contact with penetrations g0, g1 at its ends p0, p1 (points half way between the two surfaces).
-GF_FN Resultant on_line(const Vec3& n, Vec3 p0, double g0, Vec3 p1, double g1, double reference_area)
+/// The only edge of `rod` over a face of `flat`. Points from `about`.
+GF_FN LineOverlap line_overlap(const ContactBody& flat, int face, const ContactBody& rod, const Vec3& about)
 {
-    Resultant r;
-    if (g0 <= 0.0 && g1 <= 0.0) return r;
-    double share = 1.0;  // part of the line in contact
-    if (g0 < 0.0) {
-        share = g1 / (g1 - g0);
-        p0 = p1 + share * (p0 - p1);
-        g0 = 0.0;
-    } else if (g1 < 0.0) {
-        share = g0 / (g0 - g1);
-        p1 = p0 + share * (p1 - p0);
-        g1 = 0.0;
-    }
-    r.normal = n;
-    r.area = reference_area * share;
-    r.volume = r.area * 0.5 * (g0 + g1);
-    r.square = r.area * (g0 * g0 + g0 * g1 + g1 * g1) / 6.0;
-    r.depth = std::fmax(g0, g1);
-    const double sum = g0 + g1;
-    const double t = sum > 0.0 ? (g0 + 2.0 * g1) / (3.0 * sum) : 0.5;
-    r.position = p0 + t * (p1 - p0);
-    return r;
-}
-
-/// Edge of one body over a face of the other; n points from the face's body to the edge's.
-GF_FN Resultant edge_on_face(const ContactBody& flat, const Facing& face, const Rim& edge, double edge_radius,
-                             double reference_area)
-{
-    const ContactPlane plane(face.normal * face.offset, face.normal);
-    const FlatPolygon window = outline(flat, face.face, plane, false);
-    const Vec3 d = edge.to - edge.from, p = edge.from - plane.origin;
-    const double px = dot(p, plane.e1), py = dot(p, plane.e2), dx = dot(d, plane.e1), dy = dot(d, plane.e2);
-    double t0 = 0.0, t1 = 1.0;
-    for (int i = 0; i < window.count; ++i) {
-        const int j = i + 1 < window.count ? i + 1 : 0;
-        const double wx = window.x[j] - window.x[i], wy = window.y[j] - window.y[i];
-        const double h = wx * (py - window.y[i]) - wy * (px - window.x[i]), slope = wx * dy - wy * dx;
+    const Plane plane = plane_of(flat, face);
+    const Edge e = rod.shapes.edges[rod.shapes.edge_begin[rod.shape]];
+    const PlacedCore core = rod.core();
+    const Vec3 from = rod.position + rotate(rod.orientation, core.vertices[e.from]);
+    const Vec3 to = rod.position + rotate(rod.orientation, core.vertices[e.to]);
+    LineOverlap o;
+    const double length = norm(to - from);
+    o.origin = from - about;
+    o.d = (to - from) * (1.0 / length);
+    o.N = plane.normal;
+    o.g0 = flat.radius() + rod.radius() - (dot(o.N, from) - plane.offset);
+    o.gs = -dot(o.N, o.d);
+    o.s1 = length;
+    const ShapesView& s = flat.shapes;
+    const int begin = s.loop_begin[face], end = s.loop_begin[face + 1], first = s.vertex_begin[flat.shape];
+    const auto corner = [&](int k) { return flat.position + rotate(flat.orientation, s.vertices[first + s.loops[k]]); };
+    for (int k = begin; k < end; ++k) {
+        const Vec3 v = corner(k), m = normalized(cross(corner(k + 1 < end ? k + 1 : begin) - v, o.N));
+        const double outside = dot(m, from - v), slope = dot(m, o.d);
         if (slope == 0.0) {
-            if (h < 0.0) return {};
+            if (outside > 0.0) o.s1 = o.s0;
             continue;
         }
-        const double t = -h / slope;
-        if (slope > 0.0)
-            t0 = std::fmax(t0, t);
-        else
-            t1 = std::fmin(t1, t);
+        const double at = -outside / slope;
+        if (slope > 0.0 && at < o.s1) {
+            o.s1 = at;
+            o.m1 = m;
+        } else if (slope < 0.0 && at > o.s0) {
+            o.s0 = at;
+            o.m0 = m;
+        }
     }
-    if (t0 >= t1) return {};
-    const double radii = flat.radius() + edge_radius;
-    const Vec3 q0 = edge.from + t0 * d, q1 = edge.from + t1 * d;
-    const double h0 = dot(q0, face.normal) - face.offset, h1 = dot(q1, face.normal) - face.offset;
-    const auto middle = [&](const Vec3& q, double h) {
-        return q - (0.5 * (h - flat.radius() + edge_radius)) * face.normal;
-    };
-    return on_line(face.normal, middle(q0, h0), radii - h0, middle(q1, h1), radii - h1, reference_area);
+    if (o.gs != 0.0) {
+        const double zero = -o.g0 / o.gs;
+        if (o.gs < 0.0 && zero < o.s1) {
+            o.s1 = zero;
+            o.m1 = Vec3{};
+        } else if (o.gs > 0.0 && zero > o.s0) {
+            o.s0 = zero;
+            o.m0 = Vec3{};
+        }
+    } else if (o.g0 <= 0.0) {
+        o.s1 = o.s0;
+    }
+    if (o.s1 <= o.s0) {
+        o.s1 = o.s0;
+        o.m0 = o.m1 = Vec3{};
+    }
+    return o;
 }
 
-/// Two parallel edges side by side.
-GF_FN Resultant edge_on_edge(const Rim& ea, double ra, const Rim& eb, double rb, const Vec3& n, double reference_area)
+/// Edge i of a beside edge j of b; empty if they are not in contact.
+GF_FN EdgeOverlap edge_overlap(const ContactBody& a, int i, const ContactBody& b, int j, const Vec3& about)
 {
-    const Vec3 d = normalized(ea.to - ea.from);
-    const double a0 = 0.0, a1 = norm(ea.to - ea.from);
-    double b0 = dot(eb.from - ea.from, d), b1 = dot(eb.to - ea.from, d);
-    Vec3 pb0 = eb.from, pb1 = eb.to;
-    if (b0 > b1) {
-        const double s = b0;
-        b0 = b1;
-        b1 = s;
-        pb0 = eb.to;
-        pb1 = eb.from;
-    }
-    const double s0 = std::fmax(a0, b0), s1 = std::fmin(a1, b1);
-    if (s0 >= s1) return {};
-    const auto gap_point = [&](double s, double& g) {
-        const Vec3 qa = ea.from + s * d, qb = pb0 + ((s - b0) / (b1 - b0)) * (pb1 - pb0);
-        const Vec3 between = tangential(qb - qa, d);
-        const double distance = norm(between);
-        g = ra + rb - distance;
-        return qa + (0.5 * (distance + ra - rb)) * normalized(between);
+    EdgeOverlap o;
+    const auto ends = [&](const ContactBody& body, int edge, Vec3& from, Vec3& d) {
+        const Edge e = body.shapes.edges[edge];
+        const Vec3* v = body.shapes.vertices.data + body.shapes.vertex_begin[body.shape];
+        from = body.position + rotate(body.orientation, v[e.from]) - about;
+        const Vec3 along = rotate(body.orientation, v[e.to] - v[e.from]);
+        const double length = norm(along);
+        d = along * (1.0 / length);
+        return length;
     };
-    double g0 = 0.0, g1 = 0.0;
-    const Vec3 p0 = gap_point(s0, g0), p1 = gap_point(s1, g1);
-    return on_line(tangential(n, d) * (1.0 / norm(tangential(n, d))), p0, g0, p1, g1, reference_area);
+    const double length = ends(a, i, o.from, o.d), other_length = ends(b, j, o.other_from, o.other_d);
+    const double sine2 = norm2(cross(o.d, o.other_d));
+    if (sine2 >= crossing_sine2) return o;
+    const double x = std::fmax(0.0, (sine2 - parallel_sine2) / (crossing_sine2 - parallel_sine2));
+    o.weight = 1.0 - x * x * (3.0 - 2.0 * x);
+    o.weight_slope = -6.0 * x * (1.0 - x) / (crossing_sine2 - parallel_sine2);
+    o.radii = a.radius() + b.radius();
+
+    // squared distance to the other line: A s^2 + 2 B s + C, below radii^2 between the roots
+    const Vec3 w = o.from - o.other_from;
+    const double c = dot(o.d, o.other_d), h = dot(w, o.other_d);
+    const double A = std::fmax(sine2, 1e-28), B = dot(w, o.d) - c * h, C = norm2(w) - h * h - o.radii * o.radii;
+    const double inside = B * B - A * C;
+    if (inside <= 0.0) return o;
+    const double q = -(B + (B >= 0.0 ? 1.0 : -1.0) * std::sqrt(inside));
+    double low = q / A, high = q != 0.0 ? C / q : 0.0;
+    if (low > high) {
+        const double t = low;
+        low = high;
+        high = t;
+    }
+    o.s0 = std::fmax(0.0, low);
+    o.s1 = std::fmin(length, high);
+    for (int k = 0; k < 2; ++k) {
+        const Vec3 end = o.other_from + (k == 0 ? 0.0 : other_length) * o.other_d;
+        const double s = dot(end - o.from, o.d);
+        const bool is_upper = (k == 1) == (c > 0.0);
+        if (is_upper && s < o.s1) {
+            o.s1 = s;
+            o.end1 = end;
+            o.other_ends[1] = true;
+        } else if (!is_upper && s > o.s0) {
+            o.s0 = s;
+            o.end0 = end;
+            o.other_ends[0] = true;
+        }
+    }
+    if (o.s1 <= o.s0) o.weight = 0.0;
+    return o;
 }
 
-GF_FN void blend(Resultant& sum, double weight, const Resultant& r)
+/// Edges of a body that reach to within `depth` of its farthest point in `direction`: the other body is beyond, so no
+/// other edge can be in contact.
+struct FarthestEdges {
+    static constexpr int room = max_face_vertices;
+    int edge[room];  // into the shape table
+    int count = 0;
+
+    GF_FN FarthestEdges(const ContactBody& body, const Vec3& direction, const Vec3& farthest, double depth)
+    {
+        const Vec3 d = rotate_back(body.orientation, direction);
+        const double least = dot(farthest - body.position, direction) - depth;
+        const Vec3* v = body.shapes.vertices.data + body.shapes.vertex_begin[body.shape];
+        for (int e = body.shapes.edge_begin[body.shape]; e < body.shapes.edge_begin[body.shape + 1]; ++e) {
+            const Edge ends = body.shapes.edges[e];
+            if (std::fmax(dot(v[ends.from], d), dot(v[ends.to], d)) > least && count < room) edge[count++] = e;
+        }
+    }
+};
+
+/// (1 - x)^2 below 1, and its slope.
+GF_FN double fade(double x, double& slope)
 {
-    if (weight <= 0.0 || r.volume <= 0.0) return;
-    sum.normal += weight * r.volume * r.normal;
-    sum.position += weight * r.volume * r.position;
-    sum.volume += weight * r.volume;
-    sum.square += weight * r.square;
-    sum.area += weight * r.area;
-    sum.twist_radius += weight * r.twist_radius;
-    sum.footprint += weight * r.footprint;
-    sum.depth = std::fmax(sum.depth, r.depth);
+    const double rest = std::fmax(0.0, 1.0 - x);
+    slope = -2.0 * rest;
+    return rest * rest;
 }
+
+/// Pressed area of the faces; with it what is left to the reference stiffness.
+struct PressedArea {
+    double A = 0.0, rest = 1.0, rest_slope = 0.0;
+
+    GF_FN PressedArea(const OverlapMoments& faces, double A_ref)
+    {
+        if (faces.V <= 0.0) return;
+        A = 0.5 * faces.V * faces.V / faces.S;
+        rest = fade(A / (full_face * A_ref), rest_slope);
+        rest_slope /= full_face * A_ref;
+    }
+};
+
+/// U and its derivatives by the moments of the faces, of the lines, and by g_p.
+struct Potential {
+    double U = 0.0, by_point = 0.0;
+    OverlapSlopes by_faces, by_lines;
+
+    GF_FN Potential(const OverlapMoments& faces, const PressedArea& pressed, const OverlapMoments& lines, double A_ref,
+                    double g_p)
+    {
+        const double half = 0.5 * A_ref;
+        OverlapMoments m = faces;
+        m.add(lines, 1.0);
+        double mixed = g_p * g_p;
+        by_point = pressed.rest * A_ref * g_p;
+        if (m.V > 0.0) {
+            const double G = 2.0 * m.S / m.V, per_length = 12.0 / (m.V * full_line * full_line * A_ref);
+            double slope;
+            const double chi = 1.0 - fade(m.Q * per_length, slope);
+            mixed = (1.0 - chi) * g_p * g_p + chi * G * G;
+            by_point *= 1.0 - chi;
+            const double by_G = pressed.rest * A_ref * chi * G;
+            const double by_ratio = -pressed.rest * half * slope * (G * G - g_p * g_p);
+            by_faces.V = -by_G * G / m.V - by_ratio * m.Q * per_length / m.V;
+            by_faces.S = by_G * 2.0 / m.V;
+            by_faces.Q = by_ratio * per_length;
+            by_lines = by_faces;
+        }
+        U = faces.S + pressed.rest * half * mixed;
+        if (faces.V > 0.0) {
+            const double by_A = pressed.rest_slope * half * mixed;
+            by_faces.V += by_A * faces.V / faces.S;
+            by_faces.S += 1.0 - by_A * pressed.A / faces.S;
+        }
+    }
+};
 
 }  // namespace manifold_detail
 
@@ -338,71 +380,88 @@ GF_FN void blend(Resultant& sum, double weight, const Resultant& r)
 GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
 {
     using namespace manifold_detail;
-    ContactPoint none;
+    ContactPoint c;
     const double radii = a.radius() + b.radius();
     const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position);
-    if (near.distance >= radii) return none;
+    if (near.distance >= radii) return c;
     if (near.distance <= core_contact_share * radii) {
-        none.depth = radii;
-        return none;
+        c.depth = radii;
+        return c;
     }
     const Vec3 n = (near.b - near.a) * (1.0 / near.distance);
     const double area_a = a.shapes.point_area[a.shape], area_b = b.shapes.point_area[b.shape];
-    double reference = area_a > 0.0 && area_b > 0.0 ? std::fmin(area_a, area_b) : std::fmax(area_a, area_b);
-    if (reference == 0.0) {  // two round bodies: the circle of their harmonic mean radius
+    double A_ref = area_a > 0.0 && area_b > 0.0 ? std::fmin(area_a, area_b) : std::fmax(area_a, area_b);
+    if (A_ref == 0.0) {  // two round bodies: the circle of their harmonic mean radius
         const double r = a.radius() * b.radius() / radii;
-        reference = std::numbers::pi * r * r;
+        A_ref = std::numbers::pi * r * r;
+    }
+    const double g_p = radii - near.distance;
+    const Vec3 middle = near.a + (0.5 * (near.distance + a.radius() - b.radius())) * n;
+    const FacingFaces faces_a = facing(a, n, near.a, radii), faces_b = facing(b, -n, near.b, radii);
+    const bool rod_a = has_one_edge(a), rod_b = has_one_edge(b);
+    const auto pair = [&](int k) {
+        return FacePair(a, faces_a.face[k / faces_b.count], b, faces_b.face[k % faces_b.count], middle);
+    };
+    const auto rod_on_face = [&](int k) {
+        return rod_b ? line_overlap(a, faces_a.face[k], b, middle) : line_overlap(b, faces_b.face[k], a, middle);
+    };
+    const int pairs = faces_a.count * faces_b.count, rods = rod_a ? faces_b.count : rod_b ? faces_a.count : 0;
+    OverlapMoments faces, lines;
+    FacePair last;  // mostly the only one
+    int found = 0;
+    for (int k = 0; k < pairs; ++k) {
+        const FacePair o = pair(k);
+        if (o.total <= 0.0) continue;
+        faces.add(o.m, o.weight);
+        last = o;
+        ++found;
+    }
+    const PressedArea pressed(faces, A_ref);
+    if (pressed.rest > 0.0) {
+        for (int k = 0; k < rods; ++k) lines.add(rod_on_face(k).moments(), 1.0);
+    }
+    // no depth: no edge, where faces carry alone
+    const double depth = pressed.rest > 0.0 ? 1.01 * g_p : -radii;
+    const FarthestEdges edges_a(a, n, near.a, depth), edges_b(b, -n, near.b, depth);
+    for (int k = 0; k < edges_a.count * edges_b.count; ++k) {
+        EdgeOverlap o = edge_overlap(a, edges_a.edge[k / edges_b.count], b, edges_b.edge[k % edges_b.count], middle);
+        if (o.weight > 0.0) lines.add(o.moments(), o.weight);
     }
 
-    Resultant sum;
-    const Facing fa = facing(a, n), fb = facing(b, -n);
-    const double flat = fa.weight * fb.weight;
-    if (flat > 0.0) blend(sum, flat, face_on_face(a, fa, b, fb, near.a));
-    if (flat < 1.0) {
-        const Rim ea = rim(a, n), eb = rim(b, -n);
-        const double face_a = fa.weight * eb.weight, face_b = ea.weight * fb.weight;
-        double edges = 0.0;
-        if (ea.weight > 0.0 && eb.weight > 0.0) {
-            edges = ea.weight * eb.weight *
-                    alignment(norm2(cross(normalized(ea.to - ea.from), normalized(eb.to - eb.from))));
+    const Potential p(faces, pressed, lines, A_ref, g_p);
+    Wrench w;  // on b, about `middle`
+    if (found == 1) w.add(last.wrench(p.by_faces), 1.0);
+    for (int k = 0; found > 1 && k < pairs; ++k) {
+        const FacePair o = pair(k);
+        if (o.total > 0.0) w.add(o.wrench(p.by_faces), 1.0);
+    }
+    if (lines.V > 0.0) {
+        for (int k = 0; k < rods; ++k) {
+            LineOverlap o = rod_on_face(k);
+            o.moments();
+            w.add(o.wrench(p.by_lines), rod_b ? 1.0 : -1.0);
         }
-        double line = 0.0;
-        Resultant on_segment;
-        if (face_a > 0.0 && face_a >= face_b && face_a >= edges) {
-            line = face_a;
-            on_segment = edge_on_face(a, fa, eb, b.radius(), reference);
-        } else if (face_b > 0.0 && face_b >= edges) {
-            line = face_b;
-            on_segment = edge_on_face(b, fb, ea, a.radius(), reference);
-            on_segment.normal = -on_segment.normal;
-        } else if (edges > 0.0) {
-            line = edges;
-            on_segment = edge_on_edge(ea, a.radius(), eb, b.radius(), n, reference);
-        }
-        if (on_segment.volume <= 0.0) line = 0.0;
-        blend(sum, (1.0 - flat) * line, on_segment);
-        if (line < 1.0) {
-            Resultant point;
-            const double g = radii - near.distance;
-            point.normal = n;
-            point.position = near.a + (0.5 * (near.distance + a.radius() - b.radius())) * n;
-            point.volume = reference * g;
-            point.square = 0.5 * reference * g * g;
-            point.area = reference;
-            point.depth = g;
-            blend(sum, (1.0 - flat) * (1.0 - line), point);
+        for (int k = 0; k < edges_a.count * edges_b.count; ++k) {
+            EdgeOverlap o =
+                edge_overlap(a, edges_a.edge[k / edges_b.count], b, edges_b.edge[k % edges_b.count], middle);
+            if (o.weight <= 0.0) continue;
+            const OverlapMoments m = o.moments();
+            w.add(o.wrench(p.by_lines, m), 1.0);
         }
     }
-    if (sum.volume <= 0.0) return none;
-    ContactPoint c;
-    c.normal = normalized(sum.normal);
-    c.position = sum.position * (1.0 / sum.volume);
-    c.overlap_volume = sum.volume;
-    c.overlap_square = sum.square;
-    c.area = sum.area;
-    c.twist_radius = sum.twist_radius;
-    c.footprint = sum.footprint;
-    c.depth = sum.depth;
+    w.force += p.by_point * n;  // through the middle
+    const double U = p.U;
+
+    const double force = norm(w.force);
+    if (U <= 0.0 || force <= 0.0) return c;
+    c.normal = w.force * (1.0 / force);
+    c.position = middle + cross(w.force, w.moment) * (1.0 / (force * force));
+    c.overlap_force = force;
+    c.overlap_couple = dot(w.moment, c.normal);
+    c.overlap_energy = U;
+    c.area = 0.5 * dot(w.force, n) * dot(w.force, n) / U;
+    c.twist_radius = std::sqrt((1.0 - pressed.rest) * pressed.A / std::numbers::pi);
+    c.depth = g_p;
     return c;
 }
 

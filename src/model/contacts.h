@@ -9,16 +9,17 @@
 
 namespace grainfrac {
 
-/// Geometry of one contact, found anew every step: the resultant of its manifold.
+/// Geometry of one contact, found anew every step: its potential U [m^4] and what a motion of b does to it. The law
+/// multiplies all three by k_c; for faces pressed uniformly by g they are A g, 0 and A g^2/2.
 struct ContactPoint {
-    Vec3 normal;                  ///< unit, from a to b; zero if the bodies are apart [-]
-    Vec3 position;                ///< centre of pressure [m]
-    double overlap_volume = 0.0;  ///< integral of the penetration over the manifold [m^3]
-    double overlap_square = 0.0;  ///< integral of half its square [m^4]
-    double area = 0.0;            ///< of the manifold, reference area for points and lines [m^2]
-    double twist_radius = 0.0;    ///< radius of the circle of equal area; 0 for points and lines [m]
+    Vec3 normal;                  ///< unit, direction of the force on b; zero if the bodies are apart [-]
+    Vec3 position;                ///< on its line of action: the centre of pressure [m]
+    double overlap_force = 0.0;   ///< |dU/dx| [m^3]
+    double overlap_couple = 0.0;  ///< -dU/d(angle of b about the normal) [m^4]
+    double overlap_energy = 0.0;  ///< U [m^4]
+    double area = 0.0;            ///< of a uniform pressure with this force and energy; A_ref for points [m^2]
+    double twist_radius = 0.0;    ///< radius of the circle as large as the pressed faces; 0 for points and lines [m]
     double depth = 0.0;           ///< largest penetration [m]
-    double footprint = 0.0;       ///< area that the two faces share, pressed or not; 0 for points and lines [m^2]
 };
 
 struct Contacts {
@@ -33,9 +34,8 @@ struct Contacts {
     Buffer<Vec3> shear_force;        ///< F_t on a, world frame [N]
     Buffer<Vec3> normal;             ///< of the last evaluation [-]
     Buffer<double> twist_moment;     ///< about the normal, on a [N m]
-    Buffer<double> max_overlap;      ///< largest overlap volume of this contact's life, less its offset [m^3]
-    Buffer<double> max_energy;       ///< elastic energy there [J]
-    Buffer<double> offset_force;     ///< taken off so that a hand-over makes no force [N]
+    Buffer<double> max_overlap;      ///< largest root of 2 U of this contact's life, less its offset [m^2]
+    Buffer<double> offset_overlap;   ///< taken off that root so that a hand-over makes no force [m^2]
     Buffer<double> stiffness_scale;  ///< multiplies k_c for the life of a handed-over contact [-]
     Buffer<double> viscous_force;    ///< along the normal, of the last evaluation [N]
     Buffer<double> normal_force;     ///< of the last evaluation, for output [N]
@@ -43,11 +43,9 @@ struct Contacts {
     Buffer<double> friction_work;    ///< [J]
     Buffer<double> viscous_work;     ///< [J]
     Buffer<double> hysteresis_work;  ///< [J]
-    Buffer<double> area;             ///< of the manifold at the last evaluation [m^2]
-    Buffer<double> footprint;        ///< of the last evaluation [m^2]
-    Buffer<double> normal_energy;    ///< stored in the overlap at the last evaluation [J]
-    Buffer<double>
-        inserted_work;  ///< stored energy that a change of the manifold made (+) or took (-) without work [J]
+    Buffer<double> shear_stiffness;  ///< K_s of the last evaluation [N/m]
+    Buffer<double> twist_stiffness;  ///< K_t of the last evaluation [N m]
+    Buffer<double> inserted_work;    ///< stored at a hand-over, without work [J]
 
     int size() const { return a.size(); }
 
@@ -71,8 +69,7 @@ struct Contacts {
         visit("normal", normal);
         visit("twist_moment", twist_moment);
         visit("max_overlap", max_overlap);
-        visit("max_energy", max_energy);
-        visit("offset_force", offset_force);
+        visit("offset_overlap", offset_overlap);
         visit("stiffness_scale", stiffness_scale);
         visit("viscous_force", viscous_force);
         visit("normal_force", normal_force);
@@ -80,9 +77,8 @@ struct Contacts {
         visit("friction_work", friction_work);
         visit("viscous_work", viscous_work);
         visit("hysteresis_work", hysteresis_work);
-        visit("area", area);
-        visit("footprint", footprint);
-        visit("normal_energy", normal_energy);
+        visit("shear_stiffness", shear_stiffness);
+        visit("twist_stiffness", twist_stiffness);
         visit("inserted_work", inserted_work);
     }
 };

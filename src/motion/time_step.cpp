@@ -107,13 +107,13 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         const LinearContact law = model.contact_laws[c.law[i]];
         const ContactPoint p = c.point[i];
         const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
-        if (p.overlap_volume <= 0.0 && !with_wall) continue;
+        if (p.overlap_energy <= 0.0 && !with_wall) continue;
         double area = p.area;
         Vec3 arm[2] = {p.position - b.position[bodies[0]], p.position - b.position[bodies[1]]}, normal = p.normal;
         if (with_wall)
             area = std::fmax(
                 area, model.shapes.largest_face[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
-        if (p.overlap_volume <= 0.0) {  // where it will touch is not known yet: through the centre, square to the gap
+        if (p.overlap_energy <= 0.0) {  // where it will touch is not known yet: through the centre, square to the gap
             const ShapesView shapes = view(model.shapes, Device::cpu);
             const ContactBody x{shapes, b.shape[bodies[0]], b.position[bodies[0]], b.orientation[bodies[0]]};
             const ContactBody y{shapes, b.shape[bodies[1]], b.position[bodies[1]], b.orientation[bodies[1]]};

@@ -70,49 +70,195 @@ TEST_CASE("manifold of two aligned cubes: area 1, after sliding 0.5, after a tur
     const double unit = face * face;
     ContactPoint c = between(a, 0, 1);
     CHECK(relative(c.area, unit) < 1e-12);
-    CHECK(relative(c.overlap_volume, unit * overlap) < 1e-11);
-    CHECK(relative(c.overlap_square, 0.5 * unit * overlap * overlap) < 1e-10);
+    CHECK(relative(c.overlap_force, unit * overlap) < 1e-11);
+    CHECK(relative(c.overlap_energy, 0.5 * unit * overlap * overlap) < 1e-10);
     CHECK(norm(c.normal - Vec3{1, 0, 0}) < 1e-14);
     CHECK(norm(c.position - Vec3{0.5 - 0.5 * overlap, 0, 0}) < 1e-12);
 
     shift(a.state, 1, {0, 0.5 * face, 0});
     c = between(a, 0, 1);
     CHECK(relative(c.area, 0.5 * unit) < 1e-12);
-    CHECK(relative(c.overlap_volume, 0.5 * unit * overlap) < 1e-11);
-    CHECK(c.position.y == Approx(0.25 * face).epsilon(1e-12));
+    CHECK(relative(c.overlap_force * c.normal.x, 0.5 * unit * overlap) < 1e-11);
+    // as the shared face gets smaller under load, what it held pushes the edge off: g^2/2 times its length
+    CHECK(relative(c.overlap_force * c.normal.y, 0.5 * overlap * overlap * face) < 1e-9);
+    CHECK(c.position.y == Approx(0.25 * face).epsilon(1e-3));
 
     shift(a.state, 1, {0, -0.5 * face, 0});
     turn(a.state, 1, from_axis_angle({1, 0, 0}, std::numbers::pi / 4));
-    CHECK(relative(between(a, 0, 1).area, unit * 2 * (std::sqrt(2.0) - 1)) < 1e-12);
+    c = between(a, 0, 1);
+    CHECK(relative(c.area, unit * 2 * (std::sqrt(2.0) - 1)) < 1e-12);
+    CHECK(std::fabs(c.overlap_couple) < 1e-12 * overlap);
+}
+
+namespace {
+
+Quat from_rotation_vector(const Vec3& v)
+{
+    const double angle = norm(v);
+    return angle > 0.0 ? from_axis_angle(v * (1.0 / angle), angle) : Quat{};
+}
+
+/// Potential of a pair, and its gradient by a motion of body 1 from the manifold and from differences of sixth order.
+struct Slope {
+    double energy = 0.0;
+    std::array<double, 6> given{}, differences{};
+
+    double worst() const
+    {
+        double off = 0.0, size = 0.0;
+        for (int k = 0; k < 6; ++k) {
+            off =
+                std::max(off, std::fabs(given[static_cast<std::size_t>(k)] - differences[static_cast<std::size_t>(k)]));
+            size = std::max(size, std::fabs(given[static_cast<std::size_t>(k)]));
+        }
+        return size > 0.0 ? off / size : off;
+    }
+};
+
+Slope slope_of(Assembly& a, double h)
+{
+    Slope s;
+    const Vec3 x = a.state.bodies.position[1];
+    const Quat q = a.state.bodies.orientation[1];
+    const ContactPoint c = between(a, 0, 1);
+    s.energy = c.overlap_energy;
+    const Vec3 force = c.overlap_force * c.normal;
+    const Vec3 moment = cross(c.position - x, force) + c.overlap_couple * c.normal;
+    for (int k = 0; k < 6; ++k) {
+        Vec3 axis;
+        axis[k % 3] = 1.0;
+        s.given[static_cast<std::size_t>(k)] = k < 3 ? force[k] : moment[k - 3];
+        const auto at = [&](double u) {
+            if (k < 3)
+                set_position(a.state, 1, x + u * axis);
+            else
+                a.state.bodies.orientation.host()[1] = from_axis_angle(axis, u) * q;
+            const double U = between(a, 0, 1).overlap_energy;
+            set_position(a.state, 1, x);
+            a.state.bodies.orientation.host()[1] = q;
+            return U;
+        };
+        s.differences[static_cast<std::size_t>(k)] =
+            -(45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
+    }
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("forces and couples of a manifold are the slope of its potential: faces, edges, corners, rods")
+{
+    // differences leave U's range of smoothness in some draws (a corner that passes an edge): most must agree closely
+    int draw = 0, tried = 0, drawn = 0, agreed = 0;
+    double worst = 0.0;
+    const auto compare = [&](Assembly& a) {
+        if (++tried % 2 == 0) {  // either body first
+            std::swap(a.state.bodies.position.host()[0], a.state.bodies.position.host()[1]);
+            std::swap(a.state.bodies.orientation.host()[0], a.state.bodies.orientation.host()[1]);
+            std::swap(a.state.bodies.shape.host()[0], a.state.bodies.shape.host()[1]);
+        }
+        const Slope s = slope_of(a, 1e-6);
+        if (s.energy <= 0.0) return;
+        ++drawn;
+        if (s.worst() < 1e-5) ++agreed;
+        worst = std::max(worst, s.worst());
+    };
+    SECTION("faces that tilt, slide and turn")
+    {
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 r = random_vector(draw), u = random_vector(draw);
+            Assembly a = cubes({{0, 0, 0}, {0.998 + 1e-3 * u.x, 0.9 * u.y, 0.9 * u.z}});
+            turn(a.state, 1, from_rotation_vector({r.x, 3e-3 * r.y, 3e-3 * r.z}));
+            compare(a);
+        }
+    }
+    SECTION("edges on faces")
+    {
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 r = random_vector(draw), u = random_vector(draw);
+            const double tilt = 0.1 + 0.9 * std::fabs(r.z);
+            Assembly a = cubes({{0, 0, 0}, {0, 0.6 * u.y, 0.6 * u.z}});
+            turn(a.state, 1,
+                 from_rotation_vector({r.x, 0, 0}) * from_axis_angle({0, 1, 0}, tilt) *
+                     from_rotation_vector({0, 0, 5e-3 * r.y}));
+            const double reach = 0.45 * (std::cos(tilt) + std::sin(tilt)) + 0.05;
+            shift(a.state, 1, {0.5 + reach - 2e-3 * (1 + u.x), 0, 0});
+            compare(a);
+        }
+    }
+    SECTION("corners, and edges across edges")
+    {
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 r = random_vector(draw), u = random_vector(draw);
+            Assembly a = cubes({{0, 0, 0}, {3, 0.8 * u.y, 0.8 * u.z}});
+            turn(a.state, 1, from_rotation_vector(r));
+            double gap = 3;  // bring them together along x
+            for (int k = 0; k < 60; ++k) {
+                const ShapesView v = view(a.model.shapes, Device::cpu);
+                const Bodies& b = a.state.bodies;
+                const ContactBody p{v, 0, b.position[0], b.orientation[0]}, q{v, 1, b.position[1], b.orientation[1]};
+                gap = closest_points(p.core(), q.core(), q.position - p.position).distance - 0.098;
+                shift(a.state, 1, {-0.9 * gap, 0, 0});
+            }
+            compare(a);
+        }
+    }
+    SECTION("a rod on a face")
+    {
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 r = random_vector(draw), u = random_vector(draw);
+            Assembly a = cubes({{0, 0, 0}, {1.0 - 2e-3 + 1e-3 * u.x + 0.05, 0.45 * u.y, 0.45 * u.z}});
+            a.state.bodies.shape.host()[1] = add_cylinder_shape(a.model.shapes, {0, 0, 1}, 0.7, 0.5 + 0.05);
+            turn(a.state, 1, from_rotation_vector({r.x, 2e-3 * r.y, 0}));
+            compare(a);
+        }
+    }
+    SECTION("edges side by side")
+    {
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 r = random_vector(draw), u = random_vector(draw);
+            const double tilt = 0.25 * std::numbers::pi;
+            Assembly a = cubes({{0, 0, 0}, {0, 0, 0.8 * u.z}});
+            turn(a.state, 0, from_axis_angle({0, 0, 1}, tilt));
+            turn(a.state, 1, from_rotation_vector({std::pow(0.1, 1 + 2 * std::fabs(r.x)) * r.y, 3e-3 * r.z, tilt}));
+            const double angle = 0.3 * u.y, reach = 0.9 * std::sqrt(2.0) / 2;
+            shift(a.state, 1, {2 * reach + (0.1 - 2e-3 * (1 + u.x)) * std::cos(angle), 0.1 * std::sin(angle), 0});
+            compare(a);
+        }
+    }
+    CAPTURE(drawn, agreed, worst);
+    CHECK(drawn > 150);
+    CHECK(agreed > 0.95 * drawn);
+    CHECK(worst < 1e-3);
 }
 
 TEST_CASE("sliding changes the force of a manifold continuously, off the edge too")
 {
     const double overlap = 1e-3;
     Assembly a = cubes({{0, 0, 0}, {1 - overlap, 0, 0}});
-    double last = between(a, 0, 1).overlap_volume, most = 0;
+    double last = between(a, 0, 1).overlap_force, most = 0;
     const double du = 2e-5;
     for (double y = du; y < 1.1; y += du) {
         shift(a.state, 1, {0, du, 0});
-        const double now = between(a, 0, 1).overlap_volume;
+        const double now = between(a, 0, 1).overlap_force;
         most = std::max(most, std::fabs(now - last));
         last = now;
     }
-    // along the face the force changes by 0.9 du overlap; past the edge by the blend over psi .. 2 psi of the normal
-    CHECK(most < 3e-2 * 0.81 * overlap);
+    // along the face by 0.9 du overlap; past the edge by A_ref du times the slope of the rounding, sqrt(overlap/rho)
+    CHECK(most < 8e-4 * 0.81 * overlap);
     CHECK(last == 0.0);
 }
 
 TEST_CASE("tilting a pair of faces shifts the centre of pressure and opens no jump")
 {
     Assembly a = cubes({{0, 0, 0}, {0.999, 0, 0}});
-    double last = between(a, 0, 1).overlap_volume, worst = 0;
+    double last = between(a, 0, 1).overlap_force, worst = 0;
     const double da = 1e-5;
     for (double angle = da; angle < 0.06; angle += da) {
         turn(a.state, 1, from_axis_angle({0, 0, 1}, da));
         const ContactPoint c = between(a, 0, 1);
-        worst = std::max(worst, std::fabs(c.overlap_volume - last) / std::max(c.overlap_volume, last));
-        last = c.overlap_volume;
+        worst = std::max(worst, std::fabs(c.overlap_force - last) / std::max(c.overlap_force, last));
+        last = c.overlap_force;
         if (angle > 1e-4 && angle < 0.01) CHECK(std::fabs(c.position.y) > 1e-3);
     }
     CHECK(worst < 0.02);
@@ -164,6 +310,51 @@ TEST_CASE("binary collisions: e = 1/sqrt(C), and the viscous law gives the resti
     CHECK(1 / std::sqrt(10.0) == Approx(0.316228).epsilon(1e-6));
     for (const double e : {0.9, 0.5, 0.2}) {
         CHECK(restitution({1000, 0, 0, 1, damping_ratio_of(e)}, 0.002) == Approx(e).epsilon(3e-3));
+    }
+}
+
+TEST_CASE("tilted impacts keep their energy, second order in the step; hysteresis and friction are booked")
+{
+    // largest error of the account over the encounter, over the energy at its start
+    const auto encounter = [](const LinearContact& law, int draw, double dt) {
+        const Vec3 r = random_vector(draw), u = random_vector(draw), w = random_vector(draw);
+        Assembly a = cubes({{0, 0, 0}, {2, 0.3 * u.y, 0.3 * u.z}});
+        a.model.contact_laws.host() = {law};
+        // faces, edges or corners first: tilts of all sizes
+        turn(a.state, 1, from_rotation_vector(std::pow(10.0, -3.0 * std::fabs(u.x)) * r));
+        for (int k = 0; k < 60; ++k) {
+            const ShapesView v = view(a.model.shapes, Device::cpu);
+            const Bodies& b = a.state.bodies;
+            const ContactBody p{v, 0, b.position[0], b.orientation[0]}, q{v, 1, b.position[1], b.orientation[1]};
+            shift(a.state, 1, {0.11 - closest_points(p.core(), q.core(), q.position - p.position).distance, 0, 0});
+        }
+        a.state.bodies.velocity.host()[1] = {-1, 0.2 * w.y, 0.2 * w.z};
+        a.state.bodies.angular_velocity.host()[1] = 0.3 * w;
+        start(a.model, a.state);
+        const double E0 = energy_ledger(a.model, a.state).kinetic;
+        double worst = 0;
+        bool touched = false;
+        for (int i = 0; i < static_cast<int>(0.15 / dt); ++i) {
+            step(a.model, a.state, dt);
+            worst = std::max(worst, std::fabs(energy_ledger(a.model, a.state).residual()) / E0);
+            touched = touched || a.state.contacts.point[0].overlap_energy > 0.0;
+        }
+        CHECK(touched);
+        return worst;
+    };
+    const double k = 2e4;
+    for (const LinearContact& law : {LinearContact{k, 0, 0, 1, 0}, LinearContact{k, 0.8, 0.4, 1, 0},
+                                     LinearContact{k, 0, 0, 4, 0}, LinearContact{k, 0.8, 0.4, 4, 0}}) {
+        int falls = 0;
+        for (int draw = 0; draw < 20; ++draw) {
+            const double coarse = encounter(law, 30 * draw, 2e-5), fine = encounter(law, 30 * draw, 1e-5);
+            CAPTURE(draw, coarse, fine, law.shear_ratio, law.unload_factor);
+            CHECK(fine < (law.friction > 0.0 ? 1e-4 : 1e-5));
+            // a contact that opens drops what its shear spring still holds: of first order
+            if (fine < (law.friction > 0.0 ? 0.6 : 0.45) * coarse) ++falls;
+        }
+        CAPTURE(falls, law.shear_ratio, law.unload_factor);
+        CHECK(falls >= 18);
     }
 }
 
@@ -291,6 +482,6 @@ TEST_CASE("a rigid rotation of a pressed pair with friction makes no slip and no
         find_contacts(a.model, a.state);
         contact_forces(a.model, a.state, dt);
     }
-    CHECK(a.state.contacts.friction_work[0] == 0.0);
+    CHECK(a.state.contacts.friction_work[0] < 1e-15);
     CHECK(norm(a.state.contacts.shear_force[0]) == Approx(F0).epsilon(1e-9));
 }

@@ -85,7 +85,7 @@ inline void add_contact(State& state, int a, int b)
     contacts.b.host()[i] = b;
     contacts.active.host()[i] = 1;
     contacts.normal_force.host()[i] = 25.0;
-    contacts.point.host()[i] = {{0, -1, 0}, {0, -side, 0}, 1e-15, 1e-22, 1e-8, 0.0, 1e-7};
+    contacts.point.host()[i] = {{0, -1, 0}, {0, -side, 0}, 1e-15, 0.0, 1e-22, 1e-8, 0.0, 1e-7};
 }
 
 /// Bodies 0..2 are the grains of ids 2, 0, 1 (bodies may be renumbered, ids not), body 3 a plate below them, body 4 a
