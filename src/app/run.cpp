@@ -53,8 +53,7 @@ void warn_about_loading(const Case& c, const Built& b, const RunRecord& record)
     const double scale = std::max({std::fabs(e.external), e.kinetic, e.initial});
     if (std::fabs(e.inserted) > 1e-3 * scale) {
         spdlog::warn(
-            "changes of contact manifolds (faces sliding off each other, tilting onto edges) made {:.2g} of the "
-            "largest energy",
+            "contacts that took over from broken bonds stored {:.2g} of the largest energy more than the bonds did",
             e.inserted / scale);
     }
     if (e.relative_error() > 1e-3) {

@@ -33,6 +33,11 @@ struct ContactForces {
         const int s = first_slot + i;
         slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
+        if (active[i] != 0) {  // what the springs along the surfaces still held is lost to the last slip
+            if (shear_stiffness[i] > 0.0) friction_work[i] += 0.5 * norm2(shear_force[i]) / shear_stiffness[i];
+            if (twist_stiffness[i] > 0.0)
+                friction_work[i] += 0.5 * twist_moment[i] * twist_moment[i] / twist_stiffness[i];
+        }
         active[i] = 0;
         shear_force[i] = Vec3{};
         twist_moment[i] = max_overlap[i] = offset_overlap[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =

@@ -16,7 +16,7 @@ struct Ledger {
     double damping = 0.0;           ///< D_visc + D_hyst + D_local [J]
     double external = 0.0;          ///< W_ext, driven bodies [J]
     double gravity = 0.0;           ///< W_g [J]
-    double inserted = 0.0;  ///< W_ins, stored energy that no work made: changes of contact manifolds, signed [J]
+    double inserted = 0.0;  ///< W_ins, stored where a contact takes over from a bond, less what the bond held [J]
     double initial = 0.0;   ///< E_0 [J]
 
     double negligible = 0.0;  ///< a residual below this is round-off [J]

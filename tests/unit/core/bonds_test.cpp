@@ -318,3 +318,41 @@ TEST_CASE("parallel bond: stiffness and breaking loads of the circular section")
     CHECK(breaks(u, t, false) == Approx(0.5).epsilon(1e-6));
     CHECK(breaks(u, t, true) == Approx(1.0).epsilon(1e-6));
 }
+
+TEST_CASE("a sheared face that retires hands over to contact: no jump of the force, and the account closes")
+{
+    for (const double k_c :
+         {0.3 * k_n, k_n, 2.0 * k_n}) {  // shares less area: a contact weaker or stronger than the face
+        InterfaceLaw law = brittle(1.0, 1.0);
+        law.failure = FailureUnit::point;
+        law.friction = 0.5;
+        law.residual_friction = 0.4;
+        Assembly a = pair_of_blocks(law);
+        a.model.contact_laws.host() = {{k_c, 0.4, 0.4, 1.0, 0.0}};
+        a.model.fracture_active = true;
+        drive(a.state, 0);
+        drive(a.state, 1, {0, 0.01, 0});
+        a.state.bodies.inverse_mass.host()[1] = 1e-30;  // held all the same, but a pair of driven bodies has no contact
+        set_position(a.state, 1, {0.5 - 1e-3, 0, 0});
+        start(a.model, a.state);
+        const double dt = 2e-3, start_energy = energy_ledger(a.model, a.state).elastic_bonds;
+        double work = 0, jump = 0, largest = 0;
+        Vec3 last = a.state.bodies.force[1];
+        bool handed_over = false;
+        for (int i = 0; i < 16000; ++i) {
+            step(a.model, a.state, dt);
+            const Vec3 now = a.state.bodies.force[1];
+            work -= 0.5 * dt * 0.01 * (now.y + last.y);
+            largest = std::max(largest, norm(now));
+            if (a.state.interfaces.retired[0] != 0) jump = std::max(jump, norm(now - last));
+            handed_over = handed_over || a.state.contacts.active[0] != 0;
+            last = now;
+        }
+        const Ledger e = energy_ledger(a.model, a.state);
+        CAPTURE(k_c, jump, largest, work, e.inserted);
+        CHECK(handed_over);
+        CHECK(jump < 2e-3 * largest);
+        CHECK(std::fabs(start_energy + work + e.inserted - e.elastic_bonds - e.elastic_contacts - e.fracture -
+                        e.friction) < 1e-3 * work);
+    }
+}
