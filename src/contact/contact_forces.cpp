@@ -9,10 +9,6 @@ namespace grainfrac {
 
 namespace {
 
-/// A handed-over contact may be stiffer than its law by this factor at most; beyond it the geometry of the two laws has
-/// little in common and a force jump is the lesser evil (the time step would suffer).
-constexpr double most_stiffness_scale = 4.0;
-
 template <class Law>
 struct ContactForces {
     static constexpr const char* name = "contact forces";
@@ -62,10 +58,7 @@ struct ContactForces {
         const double pressed = std::fmax(0.0, -dot(f, c.normal)), own = l.area_stiffness * c.overlap_force;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
-        if (pressed <= own)
-            h.offset_overlap = (1.0 - pressed / own) * std::sqrt(2.0 * c.overlap_energy);
-        else
-            h.stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
+        match_force(pressed, own, c, h.offset_overlap, h.stiffness_scale);
         return true;
     }
 

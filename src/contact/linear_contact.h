@@ -61,6 +61,20 @@ GF_FN Vec3 turn_with_contact(const Vec3& f, const Vec3& n_old, const Vec3& n, do
     return tilted + (2.0 * t / (1.0 + t * t)) * (nf + t * cross(n, nf));
 }
 
+/// A handed-over contact may be stiffer than its law by this factor at most; beyond it the geometry of the two laws has
+/// little in common and a force jump is the lesser evil (the time step would suffer).
+inline constexpr double most_stiffness_scale = 4.0;
+
+/// Offset and stiffness of a contact that takes over with the force `pressed`, where its law alone would press `own`.
+GF_FN void match_force(double pressed, double own, const ContactPoint& c, double& offset_overlap,
+                       double& stiffness_scale)
+{
+    if (pressed <= own)
+        offset_overlap = (1.0 - pressed / own) * std::sqrt(2.0 * c.overlap_energy);
+    else
+        stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
+}
+
 /// What a spring keeps of its force when its stiffness goes from `before` to `now`, and the energy that is lost.
 struct ReshapedSpring {
     double share = 1.0, lost = 0.0;

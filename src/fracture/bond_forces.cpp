@@ -109,7 +109,9 @@ struct InterfaceForces {
             if (point_onset[q] > 0.0)
                 p = {point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
             const double onset_before = p.onset;
-            const Vec3 rate = relative_velocity + cross(wb, arm_b) - cross(wa, arm_a);
+            // at the midpoint of both points: there a common rigid motion has no rate, whatever the jump
+            const Vec3 middle_a = arm_a + 0.5 * jump, middle_b = arm_b - 0.5 * jump;
+            const Vec3 rate = relative_velocity + cross(wb, middle_b) - cross(wa, middle_a);
             const double rate_n = dot(rate, f.n);
             const InterfaceJump before{d_n - dt * rate_n, d_1 - dt * dot(rate, f.t1), d_2 - dt * dot(rate, f.t2)};
             const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i],
@@ -131,7 +133,6 @@ struct InterfaceForces {
 
             // Both forces act at the midpoint: at their own points the pair would leave the torque jump x traction.
             const Vec3 t = w * (r.normal * f.n + r.shear1 * f.t1 + r.shear2 * f.t2);
-            const Vec3 middle_a = arm_a + 0.5 * jump, middle_b = arm_b - 0.5 * jump;
             force += t;
             torque_a += cross(middle_a, t);
             torque_b -= cross(middle_b, t);

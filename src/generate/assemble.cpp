@@ -2,8 +2,6 @@
 #include "generate/assemble.h"
 
 #include "generate/crystal.h"
-#include "geometry/cut.h"
-#include "geometry/mass_properties.h"
 #include "geometry/shared_faces.h"
 #include "model/random.h"
 
@@ -40,6 +38,8 @@ int new_wall_body(Model& model, State& state, int wall, int group, int shape, co
     at(b.shape, i) = shape;
     at(b.group, i) = group;
     at(b.wall, i) = wall;
+    at(b.origin, i) = at(b.id, i);
+    at(b.parent, i) = -1;
     model.grain_shapes.emplace_back();
     return i;
 }
@@ -49,34 +49,21 @@ int new_wall_body(Model& model, State& state, int wall, int group, int shape, co
 int add_grain(Model& model, State& state, const GrainSpec& g)
 {
     if (const std::string why = why_not_convex(g.shape); !why.empty()) throw std::invalid_argument("grain: " + why);
-    const MassProperties m = mass_properties(g.shape);
-    const Quat axes = m.principal_axes;
-    Polyhedron shape = rotated(translated(g.shape, -m.centroid), conjugate(axes));
-    const double inradius = inscribed_ball(shape).radius;
-    const double radius = std::min(g.dilation_radius, most_dilation * inradius);
-    const Polyhedron core = erode(shape, radius);
-    if (core.faces.empty())
-        throw std::invalid_argument("grain: nothing is left of it after erosion by its dilation radius");
-
     Bodies& b = state.bodies;
     const int i = new_body(b);
+    model.grain_shapes.emplace_back();
     const double density = model.materials[static_cast<std::size_t>(g.material)].density;
-    const Vec3 inertia = density * m.principal_inertia;
-    at(b.position, i) = at(b.start_position, i) = m.centroid;
-    at(b.orientation, i) = at(b.start_orientation, i) = axes;
+    const PrincipalFrame frame = set_grain_shape(model, b, i, g.shape, {}, density, g.dilation_radius);
+    at(b.start_position, i) = b.position[i];
+    at(b.start_orientation, i) = b.orientation[i];
     at(b.velocity, i) = g.velocity;
-    at(b.mass, i) = density * m.volume;
-    at(b.inverse_mass, i) = 1.0 / (density * m.volume);
-    at(b.inertia, i) = inertia;
-    at(b.inverse_inertia, i) = {1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z};
-    const Vec3 spin = rotate_back(axes, g.angular_velocity);
-    at(b.angular_momentum, i) = {inertia.x * spin.x, inertia.y * spin.y, inertia.z * spin.z};
-    at(b.angular_velocity, i) = g.angular_velocity;
+    set_spin(b, i, g.angular_velocity);
     at(b.group, i) = g.group;
     at(b.wall, i) = -1;
-    at(b.crystal, i) = conjugate(axes) * g.crystal;
-    at(b.shape, i) = add_shape(model.shapes, core, radius);
-    model.grain_shapes.push_back(std::move(shape));
+    at(b.crystal, i) = conjugate(frame.axes) * g.crystal;
+    at(b.origin, i) = b.id[i];
+    at(b.parent, i) = -1;
+    at(b.origin_volume, i) = b.mass[i] / density;
     return i;
 }
 

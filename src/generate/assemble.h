@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/quadrature.h"
+#include "model/grain_body.h"
 #include "model/model.h"
 #include "model/state.h"
 
@@ -23,9 +24,6 @@ struct GrainSpec {
     Vec3 velocity;          ///< [m/s]
     Vec3 angular_velocity;  ///< [rad/s]
 };
-
-/// The dilation radius may take this share of a grain's inradius; more and erosion eats small faces.
-inline constexpr double most_dilation = 1.0 / 3.0;
 
 /// Body in its principal frame with an eroded, dilated contact shape. Returns its index. Throws std::invalid_argument
 /// for a shape that is no closed convex polyhedron.

@@ -11,27 +11,31 @@
 namespace grainfrac {
 
 struct Bodies {
-    Buffer<Vec3> position;           ///< centre of mass, world frame [m]
-    Buffer<Quat> orientation;        ///< body (principal axes) to world, unit length [-]
-    Buffer<Vec3> velocity;           ///< of the centre of mass [m/s]
-    Buffer<Vec3> angular_momentum;   ///< body frame [kg m^2/s]
-    Buffer<Vec3> angular_velocity;   ///< world frame; follows from angular_momentum, prescribed where driven [rad/s]
-    Buffer<Vec3> force;              ///< resultant of contacts, bonds and gravity [N]
-    Buffer<Vec3> torque;             ///< about the centre of mass, world frame [N m]
-    Buffer<double> mass;             ///< [kg]
-    Buffer<double> inverse_mass;     ///< 0 where driven [1/kg]
-    Buffer<Vec3> inertia;            ///< principal moments [kg m^2]
-    Buffer<Vec3> inverse_inertia;    ///< 0 where driven, and for bodies that do not rotate [1/(kg m^2)]
-    Buffer<double> external_work;    ///< done on the system by moving this driven body [J]
-    Buffer<double> damping_work;     ///< taken by local damping [J]
-    Buffer<double> gravity_work;     ///< done by gravity [J]
-    Buffer<std::int32_t> id;         ///< never changes and is never reused; index may change [-]
-    Buffer<std::int32_t> shape;      ///< into Shapes [-]
-    Buffer<std::int32_t> group;      ///< part or wall: index into Model::groups [-]
-    Buffer<std::int32_t> wall;       ///< index into Model::walls, -1 if the body is free [-]
-    Buffer<Vec3> start_position;     ///< for displacement fields [m]
-    Buffer<Quat> start_orientation;  ///< for rotation fields [-]
-    Buffer<Quat> crystal;            ///< crystal frame to body frame [-]
+    Buffer<Vec3> position;            ///< centre of mass, world frame [m]
+    Buffer<Quat> orientation;         ///< body (principal axes) to world, unit length [-]
+    Buffer<Vec3> velocity;            ///< of the centre of mass [m/s]
+    Buffer<Vec3> angular_momentum;    ///< body frame [kg m^2/s]
+    Buffer<Vec3> angular_velocity;    ///< world frame; follows from angular_momentum, prescribed where driven [rad/s]
+    Buffer<Vec3> force;               ///< resultant of contacts, bonds and gravity [N]
+    Buffer<Vec3> torque;              ///< about the centre of mass, world frame [N m]
+    Buffer<double> mass;              ///< [kg]
+    Buffer<double> inverse_mass;      ///< 0 where driven [1/kg]
+    Buffer<Vec3> inertia;             ///< principal moments [kg m^2]
+    Buffer<Vec3> inverse_inertia;     ///< 0 where driven, and for bodies that do not rotate [1/(kg m^2)]
+    Buffer<double> external_work;     ///< done on the system by moving this driven body [J]
+    Buffer<double> damping_work;      ///< taken by local damping [J]
+    Buffer<double> gravity_work;      ///< done by gravity [J]
+    Buffer<std::int32_t> id;          ///< never changes and is never reused; index may change [-]
+    Buffer<std::int32_t> shape;       ///< into Shapes [-]
+    Buffer<std::int32_t> group;       ///< part or wall: index into Model::groups [-]
+    Buffer<std::int32_t> wall;        ///< index into Model::walls, -1 if the body is free [-]
+    Buffer<Vec3> start_position;      ///< for displacement fields [m]
+    Buffer<Quat> start_orientation;   ///< for rotation fields [-]
+    Buffer<Quat> crystal;             ///< crystal frame to body frame [-]
+    Buffer<std::int32_t> origin;      ///< id of the grain that it was at the start [-]
+    Buffer<std::int32_t> parent;      ///< id of what it was split from, -1 if it is whole [-]
+    Buffer<std::int32_t> generation;  ///< number of splits behind it [-]
+    Buffer<double> origin_volume;     ///< of the sharp grain that it was at the start; 0 for walls [m^3]
 
     int size() const { return position.size(); }
 
@@ -60,6 +64,10 @@ struct Bodies {
         visit("start_position", start_position);
         visit("start_orientation", start_orientation);
         visit("crystal", crystal);
+        visit("origin", origin);
+        visit("parent", parent);
+        visit("generation", generation);
+        visit("origin_volume", origin_volume);
     }
 };
 

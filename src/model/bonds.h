@@ -16,21 +16,22 @@ struct Vec2 {
 
 /// Grain boundaries, one entry per shared face (physics: total form, no history but damage and slip).
 struct InterfaceBonds {
-    Buffer<std::int32_t> a, b;          ///< bodies
-    Buffer<std::int32_t> law;           ///< into Model::interface_laws
-    Buffer<std::int32_t> point_begin;   ///< first quadrature point; one more entry at the end
-    Buffer<std::int32_t> corner_begin;  ///< first corner of the face polygon; one more entry at the end
-    Buffer<Vec3> normal_a, normal_b;    ///< unit normal from a to b, in the frames of a and b [-]
-    Buffer<Vec3> tangent_a, tangent_b;  ///< first tangent, in the frames of a and b [-]
-    Buffer<double> area;                ///< [m^2]
-    Buffer<double> diameter;            ///< least width of the face polygon [m]
-    Buffer<double> normal_stiffness;    ///< k_n per area [Pa/m]
-    Buffer<double> shear_stiffness;     ///< k_s per area [Pa/m]
-    Buffer<double> normal_damping;      ///< c_n per area [Pa s/m]
-    Buffer<double> shear_damping;       ///< c_s per area [Pa s/m]
-    Buffer<double> strength_factor;     ///< scatter: multiplies sigma_c and c [-]
-    Buffer<double> toughness_factor;    ///< scatter: multiplies G_I and G_II [-]
-    Buffer<double> opening_limit;       ///< opening beyond which a dead face is handed to general contact [m]
+    Buffer<std::int32_t> a, b;           ///< bodies
+    Buffer<std::int32_t> law;            ///< into Model::interface_laws
+    Buffer<std::int32_t> point_begin;    ///< first quadrature point; one more entry at the end
+    Buffer<std::int32_t> corner_begin;   ///< first corner of the face polygon; one more entry at the end
+    Buffer<Vec3> normal_a, normal_b;     ///< unit normal from a to b, in the frames of a and b [-]
+    Buffer<Vec3> tangent_a, tangent_b;   ///< first tangent, in the frames of a and b [-]
+    Buffer<double> area;                 ///< [m^2]
+    Buffer<double> diameter;             ///< least width of the face polygon [m]
+    Buffer<double> normal_stiffness;     ///< k_n per area [Pa/m]
+    Buffer<double> shear_stiffness;      ///< k_s per area [Pa/m]
+    Buffer<double> normal_damping;       ///< c_n per area [Pa s/m]
+    Buffer<double> shear_damping;        ///< c_s per area [Pa s/m]
+    Buffer<double> strength_factor;      ///< scatter: multiplies sigma_c and c [-]
+    Buffer<double> toughness_factor;     ///< scatter: multiplies G_I and G_II [-]
+    Buffer<double> opening_limit;        ///< opening beyond which a dead face is handed to general contact [m]
+    Buffer<std::int32_t> transgranular;  ///< 1: made by a split, within what was one grain
     // state
     Buffer<std::int32_t> retired;                     ///< 1: dead and handed over to general contact
     Buffer<double> damage;                            ///< area mean [-]
@@ -68,6 +69,7 @@ struct InterfaceBonds {
         visit("strength_factor", strength_factor);
         visit("toughness_factor", toughness_factor);
         visit("opening_limit", opening_limit);
+        visit("transgranular", transgranular);
         visit("retired", retired);
         visit("damage", damage);
         visit("stored_energy", stored_energy);
