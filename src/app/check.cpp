@@ -18,7 +18,7 @@ constexpr int timed_steps = 50;
 
 double seconds_per_step(const Built& b, double dt)
 {
-    Built copy{b.model, b.state, b.experiment};
+    Built copy{b.model, b.state, b.experiment, b.cleavage};
     const auto before = std::chrono::steady_clock::now();
     for (int i = 0; i < timed_steps; ++i) step(copy.model, copy.state, dt);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count() / timed_steps;

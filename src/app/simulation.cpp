@@ -6,17 +6,22 @@
 #include "contact/find_contacts.h"
 #include "fracture/clusters.h"
 #include "fracture/grain_stress.h"
+#include "model/grain_body.h"
 #include "model/validate.h"
 #include "motion/step.h"
 #include "motion/time_step.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <stdexcept>
 
 namespace grainfrac {
 
@@ -28,6 +33,8 @@ constexpr double automatic_rows = 2000.0;
 constexpr double automatic_snapshots = 20.0;
 /// The time step is checked against the present stiffness after this many steps: contacts come slowly compared to it.
 constexpr int steps_between_checks = 500;
+/// Grains are asked for cleavage after this many steps: a small part of the time that a wave takes through one.
+constexpr int steps_between_cleavage = 10;
 /// A run whose energy account is off by this share has gone wrong: a stable one stays below 1e-3.
 constexpr double most_energy_error = 0.1;
 /// A residual below this share of E V (as m c_0^2) is round-off, whatever the other terms are: strains of 1e-9.
@@ -50,6 +57,7 @@ public:
           model_(built.model),
           state_(built.state),
           experiment_(built.experiment),
+          cleavage_(built.cleavage),
           folder_(folder),
           record_(record),
           fields_(fields),
@@ -114,10 +122,12 @@ private:
         while (true) {
             if (state_.step % steps_between_checks == 0 && state_.step > 0) shorten_step_if_needed();
             const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
+            const bool cleave = !cleavage_.empty() && stage.fracture && (state_.step + 1) % steps_between_cleavage == 0;
             const auto before = Clock::now();
-            step(model_, state_, dt_, snapshot);
+            step(model_, state_, dt_, snapshot || cleave);
             record_.phases.steps += seconds_since(before);
-            if (snapshot) write_snapshot();
+            // a snapshot waits for the step after a split, when the stresses of the parts are known
+            if (!(cleave && split_where_due()) && snapshot) write_snapshot();
             if (state_.time + 0.5 * dt_ >= next_history_ || time_is_up(stage)) {
                 record_row(stage);
                 if (const std::string why = why_unstable(); !why.empty())
@@ -170,6 +180,56 @@ private:
         record_.limiter = bound.limiter;
     }
 
+    /// True if a grain was split.
+    bool split_where_due()
+    {
+        const auto before = Clock::now();
+        const std::vector<GrainCleavage> found = find_cleavage(model_, state_, grain_stress(model_, state_), cleavage_);
+        const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
+        bool split = false;
+        if (!due.empty()) {
+            std::vector<SplitRules> rules;
+            for (const CleavageRules& r : cleavage_) rules.push_back(r.split);
+            for (const SplitReport& r : split_grains(model_, state_, due, rules)) {
+                if (r.status == SplitStatus::done) {
+                    split = true;
+                    ++record_.splits;
+                    record_.split_area += r.area;
+                    record_.split_energy += r.inserted_energy;
+                    spdlog::debug("step {}: grain {} split", state_.step, r.parent_id);
+                } else {
+                    ++record_.refused_splits[to_string(r.status)];
+                    if (r.status == SplitStatus::degenerate) keep_refused_cut(r.body, due);
+                }
+            }
+        }
+        record_.phases.splitting += seconds_since(before);
+        if (!split) return false;
+        if (const std::string why = why_not_valid(model_, state_); !why.empty())
+            throw std::logic_error("a split made an impossible state: " + why);
+        shorten_step_if_needed();
+        return true;
+    }
+
+    /// The geometry that no clean cut was found for, to be looked into.
+    void keep_refused_cut(int body, const std::vector<SplitRequest>& due) const
+    {
+        const auto folder = folder_.path() / "refused_cuts";
+        std::error_code ignored;
+        std::filesystem::create_directories(folder, ignored);
+        std::ofstream out(folder / fmt::format("step_{}_grain_{}.txt", state_.step, state_.bodies.id[body]));
+        const Polyhedron& p = model_.grain_shapes[static_cast<std::size_t>(body)];
+        const Placement place = placement(state_.bodies, body);
+        for (const SplitRequest& r : due) {
+            if (r.body != body) continue;
+            const Vec3 n = rotate_back(place.orientation, r.plane.normal);
+            out << fmt::format("plane {:.17g} {:.17g} {:.17g} {:.17g}\n", n.x, n.y, n.z,
+                               r.plane.offset - dot(r.plane.normal, place.position));
+        }
+        for (const Vec3& v : p.vertices) out << fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", v.x, v.y, v.z);
+        for (const auto& face : p.faces) out << fmt::format("face {}\n", fmt::join(face, " "));
+    }
+
     void record_row(const Stage&)
     {
         const auto before = Clock::now();
@@ -186,6 +246,7 @@ private:
         r.unbalanced_force_ratio = unbalanced_force_ratio(state_);
         r.platen_imbalance = m.platen_imbalance;
         count_broken(r);
+        r.split_grains = record_.splits;
         folder_.append_history(r);
         record_.rows.push_back(r);
         if (m.load > record_.peak_load) {
@@ -289,6 +350,7 @@ private:
     {
         const auto before = Clock::now();
         fields_.stress = grain_stress(model_, state_);
+        fields_.cleavage = find_cleavage(model_, state_, fields_.stress, cleavage_);
         fields_.cluster = bonded_clusters(state_);
         folder_.write_snapshot(model_, state_, fields_, case_.output.contacts);
         next_snapshot_ = state_.time + every_;
@@ -318,6 +380,7 @@ private:
     Model& model_;
     State& state_;
     const Experiment& experiment_;
+    const std::vector<CleavageRules>& cleavage_;
     ResultFolder& folder_;
     RunRecord& record_;
     SnapshotFields& fields_;

@@ -7,6 +7,8 @@
 #include "experiment/experiment.h"
 #include "io/results.h"
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ struct Ending {
 
 /// Wall time by phase [s].
 struct PhaseTimes {
-    double build = 0.0, steps = 0.0, output = 0.0;
+    double build = 0.0, steps = 0.0, output = 0.0, splitting = 0.0;
 };
 
 /// What the run found out beyond its files.
@@ -38,6 +40,10 @@ struct RunRecord {
     double history_interval = 0.0, snapshot_interval = 0.0;  ///< [s]
     PhaseTimes phases;
     Momentum first_momentum, last_momentum;
+    std::int64_t splits = 0;
+    double split_area = 0.0;                             ///< of all planes that split a grain [m^2]
+    double split_energy = 0.0;                           ///< that new surfaces held at the start [J]
+    std::map<std::string, std::int64_t> refused_splits;  ///< by reason
 };
 
 /// Step through all stages of `built`, writing into `folder`. The state is left at the end of the run.

@@ -80,6 +80,14 @@ json cracks_json(const std::vector<CrackFace>& cracks, const RunRecord& record)
     return j;
 }
 
+json splits_json(const RunRecord& record)
+{
+    return {{"number", record.splits},
+            {"area_m2", record.split_area},
+            {"inserted_J", record.split_energy},
+            {"refused", record.refused_splits}};
+}
+
 json fragments_json(const Built& b, const SnapshotFields& fields)
 {
     std::map<std::int32_t, double> mass;
@@ -164,6 +172,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
                  {"displacement_at_peak_m", record.peak_displacement}};
     if (b.experiment.specimen.stress_area > 0.0) j["test"]["nominal_strength_Pa"] = record.peak_stress;
     j["cracks"] = cracks_json(collect_cracks(b.model, b.state), record);
+    if (!b.cleavage.empty()) j["splits"] = splits_json(record);
     j["fragments"] = fragments_json(b, fields);
     j["energy"] = energy_json(e, record);
     j["mass_kg"] = record.last_momentum.mass;
@@ -177,6 +186,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     j["run_time"] = {{"build_s", record.phases.build},
                      {"steps_s", record.phases.steps},
                      {"output_s", record.phases.output},
+                     {"splitting_s", record.phases.splitting},
                      {"steps_per_s", record.phases.steps > 0.0 ? steps / record.phases.steps : 0.0}};
     if (b.state.points.size() > 0 && steps > 0.0) {
         j["run_time"]["ns_per_interface_point_and_step"] = 1e9 * record.phases.steps / steps / b.state.points.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/find_pairs.h"
 #include "experiment/brazilian.h"
+#include "experiment/cleavage_rules.h"
 #include "experiment/custom.h"
 #include "experiment/experiment.h"
 #include "experiment/laws.h"
@@ -125,6 +126,9 @@ Built build(const Case& c, Device device)
     built.experiment = c.test.kind == "brazilian" ? set_up_brazilian(c, model, state) : set_up_custom(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(c, spacing, model);
+    if (std::any_of(c.materials.begin(), c.materials.end(),
+                    [](const MaterialSpec& m) { return !m.cleavage.planes.empty(); }))
+        built.cleavage = make_cleavage_rules(c, spacing, model);
 
     model.gravity = c.control.gravity;
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);

@@ -22,7 +22,7 @@ Extent specimen_extent(const Model& model, const State& state)
     Extent e;
     const Bodies& b = state.bodies;
     for (int i = 0; i < b.size(); ++i) {
-        for (const Vec3& v : model.grain_shapes[static_cast<std::size_t>(b.id[i])].vertices) {
+        for (const Vec3& v : model.grain_shapes[static_cast<std::size_t>(i)].vertices) {
             const Vec3 x = b.position[i] + rotate(b.orientation[i], v);
             for (int k = 0; k < 3; ++k) {
                 e.low[k] = std::min(e.low[k], x[k]);

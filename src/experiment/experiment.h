@@ -2,6 +2,7 @@
 // A ready-made test: platens, stages, what is measured, when it ends. Case in, everything that a run needs out.
 #pragma once
 
+#include "fracture/cleave.h"
 #include "model/case.h"
 #include "model/model.h"
 #include "model/state.h"
@@ -57,6 +58,7 @@ struct Built {
     Model model;
     State state;
     Experiment experiment;
+    std::vector<CleavageRules> cleavage;  ///< one per group; empty where no material cleaves
 };
 Built build(const Case& c, Device device);
 

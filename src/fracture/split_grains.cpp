@@ -7,6 +7,7 @@
 #include "contact/gather.h"
 #include "contact/linear_contact.h"
 #include "fracture/bond_forces.h"
+#include "fracture/traction_field.h"
 #include "geometry/cut.h"
 #include "geometry/mass_properties.h"
 #include "model/grain_body.h"
@@ -140,13 +141,14 @@ void make_bodies(Model& model, State& state, Parting& p, const CutResult& cut)
     // part 1 first: part 2 overwrites what both start from
     become_part(model, state, fresh, p, cut.outside, density);
     become_part(model, state, parent, p, cut.inside, density);
+    at(b.split_time, fresh) = at(b.split_time, parent) = state.time;
     at(b.generation, parent) = b.generation[fresh];
     at(b.parent, parent) = b.parent[fresh];
     at(b.id, parent) = next_id + 1;
 }
 
 /// What lies on one side of a plane, of a convex polygon.
-std::vector<Vec3> side_of(const std::vector<Vec3>& polygon, const Parting& p, bool part_1)
+std::vector<Vec3> polygon_on_side(const std::vector<Vec3>& polygon, const Parting& p, bool part_1)
 {
     std::vector<Vec3> kept;
     const auto height = [&](const Vec3& x) {
@@ -178,7 +180,7 @@ struct CutSurface {
     std::vector<QuadraturePoint> points;
     std::vector<Vec3> traction;  // at the points, on part 2 [Pa]
     const SplitRules* rules = nullptr;
-    double toughness = 1.0;
+    double toughness = 1.0, K_I = 0.0, K_II = 0.0;
 };
 
 class Interfaces {
@@ -205,7 +207,7 @@ public:
                 }
                 Piece part[2];
                 for (const int side : {0, 1}) {
-                    part[side] = {piece.source, piece.a, piece.b, {}, side_of(piece.corners, p, side == 0)};
+                    part[side] = {piece.source, piece.a, piece.b, {}, polygon_on_side(piece.corners, p, side == 0)};
                     if (part[side].corners.size() < 3) part[side].corners = piece.corners;
                 }
                 for (const int q : piece.points)
@@ -385,6 +387,8 @@ private:
         at(f.toughness_factor, n) = s.toughness;
         at(f.opening_limit, n) = model_.shapes.radius[b.shape[s.a]] + model_.shapes.radius[b.shape[s.b]];
         at(f.transgranular, n) = 1;
+        at(f.K_I, n) = s.K_I;
+        at(f.K_II, n) = s.K_II;
         at(f.first_damage_time, n) = state_.time;
         at(f.failure_time, n) = -1.0;
 
@@ -607,39 +611,20 @@ CutSurface cut_surface(const State& state, const Parting& p, const SplitRules& r
     s.b = one;
     s.rules = &rules;
     s.toughness = p.request.fracture_energy_scale;
+    s.K_I = p.request.K_I;
+    s.K_II = p.request.K_II;
     s.polygon = p.section;
     s.normal = p.request.plane.normal;
-    const PolygonMoments m = polygon_moments(s.polygon);
+    const PlaneMoments m = plane_moments(s.polygon.data(), static_cast<int>(s.polygon.size()), s.normal);
     // F*, M*: part 2 on part 1, about the centroid of the plane
     const Vec3 F = b.mass[one] * a_1 - b.force[one];
     const Vec3 M =
         by_inertia(w_rate) + cross(w, by_inertia(w)) - b.torque[one] + cross(b.position[one] - m.centroid, F);
 
+    // it acts on part 2; the quadrature integrates its products with the arms exactly
+    const TractionField field = fit_tractions(m, {-F, -M});
     s.points = quadrature(s.polygon, rules.quadrature);
-    // the linear field with these resultants over the points; the rule integrates its products exactly (§11)
-    const Vec3 e1 = m.axis1, e2 = cross(s.normal, e1);
-    double A = 0.0, i11 = 0.0, i22 = 0.0, i12 = 0.0, x1 = 0.0, x2 = 0.0;
-    for (const QuadraturePoint& g : s.points) {
-        A += g.weight;
-        x1 += g.weight * dot(g.position - m.centroid, e1);
-        x2 += g.weight * dot(g.position - m.centroid, e2);
-    }
-    const Vec3 center = m.centroid + (x1 / A) * e1 + (x2 / A) * e2;
-    for (const QuadraturePoint& g : s.points) {
-        const double u = dot(g.position - center, e1), v = dot(g.position - center, e2);
-        i11 += g.weight * u * u;
-        i22 += g.weight * v * v;
-        i12 += g.weight * u * v;
-    }
-    const Vec3 on_two = -F, moment = -M - cross(m.centroid - center, F);
-    const double m1 = dot(moment, e1), m2 = dot(moment, e2), det = i11 * i22 - i12 * i12;
-    const double slope1 = (-m2 * i22 - m1 * i12) / det, slope2 = (m1 * i11 + m2 * i12) / det;
-    const double twist = dot(moment, s.normal) / (i11 + i22);
-    for (const QuadraturePoint& g : s.points) {
-        const Vec3 x = g.position - center;
-        const double u = dot(x, e1), v = dot(x, e2);
-        s.traction.push_back(on_two / A + (slope1 * u + slope2 * v) * s.normal + twist * cross(s.normal, x));
-    }
+    for (const QuadraturePoint& q_point : s.points) s.traction.push_back(field.at(q_point.position));
     return s;
 }
 
@@ -703,11 +688,15 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
             partings.push_back(std::move(p));
             cuts.push_back(std::move(parts.cut));
             report_of.push_back(reports.size());
+        } else {
+            at(state.bodies.saturated, r.body) = 1;
         }
         reports.push_back(report);
     }
     if (partings.empty()) return reports;
 
+    state.slots.dyad_a.resize(0);  // of the interactions that were; the next step that is asked for stresses makes room
+    state.slots.dyad_b.resize(0);
     const std::vector<OldContact> contacts = take_contacts(state, partings);
     Interfaces interfaces(model, state, partings);
     for (std::size_t k = 0; k < partings.size(); ++k) {

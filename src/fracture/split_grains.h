@@ -31,6 +31,7 @@ struct SplitRequest {
     Plane plane;
     std::int32_t rules = 0;              ///< into the rules that are given
     double fracture_energy_scale = 1.0;  ///< multiplies the law's fracture energies [-]
+    double K_I = 0.0, K_II = 0.0;        ///< of the flaw, for the results [Pa sqrt(m)]
 };
 
 enum class SplitStatus {

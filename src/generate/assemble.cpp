@@ -40,6 +40,7 @@ int new_wall_body(Model& model, State& state, int wall, int group, int shape, co
     at(b.wall, i) = wall;
     at(b.origin, i) = at(b.id, i);
     at(b.parent, i) = -1;
+    at(b.split_time, i) = -1.0;
     model.grain_shapes.emplace_back();
     return i;
 }
@@ -63,6 +64,7 @@ int add_grain(Model& model, State& state, const GrainSpec& g)
     at(b.crystal, i) = conjugate(frame.axes) * g.crystal;
     at(b.origin, i) = b.id[i];
     at(b.parent, i) = -1;
+    at(b.split_time, i) = -1.0;
     at(b.origin_volume, i) = b.mass[i] / density;
     return i;
 }

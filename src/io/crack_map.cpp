@@ -91,10 +91,10 @@ Picture outlines(const Model& model, const State& state)
                 closed(hull_xy(placed(shape_surface(model.shapes, bodies.shape[i]).points, bodies, i))));
             continue;
         }
-        const auto id = static_cast<std::size_t>(bodies.id[i]);
-        if (id >= model.grain_shapes.size() || model.grain_shapes[id].faces.empty()) continue;
+        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(i)];
+        if (shape.faces.empty()) continue;
         grains.push_back(i);
-        for (const Vec3& p : placed(model.grain_shapes[id].vertices, bodies, i)) {
+        for (const Vec3& p : placed(shape.vertices, bodies, i)) {
             picture.x.add(p.x);
             picture.y.add(p.y);
             depth.add(p.z);
@@ -103,7 +103,7 @@ Picture outlines(const Model& model, const State& state)
     // Not the very middle, where two layers of grains may meet.
     const double z = depth.low + 0.47 * (depth.high - depth.low);
     for (const int i : grains) {
-        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(bodies.id[i])];
+        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(i)];
         const std::vector<Vec3> cut = section(placed(shape.vertices, bodies, i), shape.faces, z);
         if (!cut.empty()) picture.grains.push_back(closed(cut));
     }

@@ -33,6 +33,9 @@ std::vector<CrackFace> collect_cracks(const Model&, const State& state)
         cracks.push_back(crack_of(state, interfaces.a[i], interfaces.b[i], interface_face(state, i), cause));
         cracks.back().time = interfaces.failure_time[i];
         cracks.back().first_damage_time = interfaces.first_damage_time[i];
+        cracks.back().mode = interfaces.transgranular[i];
+        cracks.back().K_I = interfaces.K_I[i];
+        cracks.back().K_II = interfaces.K_II[i];
     }
     const ParallelBonds& parallels = state.parallels;
     for (int i = 0; i < parallels.size(); ++i) {

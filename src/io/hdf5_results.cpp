@@ -179,15 +179,13 @@ void Hdf5Results::append_snapshot(const Model& model, const State& state, const 
                                   const std::vector<CrackFace>& cracks)
 {
     const hsize_t snapshot = snapshots_.time.rows();
-    const std::vector<int> order = bond_order(state);
     append_grains(state, fields);
-    if (snapshot == 0) write_bond_table(state, order);
-    write_bond_state(state, order);
-    std::vector<double> damage;
-    for (const int i : order) {
+    const std::vector<BondRow> rows = update_bonds(state);
+    std::vector<double> damage(bond_rows_.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const BondRow& r : rows) {
         const int interfaces = state.interfaces.size();
-        damage.push_back(i < interfaces ? state.interfaces.damage[i]
-                                        : (state.parallels.cause[i - interfaces] != 0 ? 1.0 : 0.0));
+        damage[r.row] = r.bond < interfaces ? state.interfaces.damage[r.bond]
+                                            : (state.parallels.cause[r.bond - interfaces] != 0 ? 1.0 : 0.0);
     }
     bonds_.damage.write({snapshot, 0}, {1, damage.size()}, damage);
     bonds_.damage.flush();
@@ -279,29 +277,50 @@ void Hdf5Results::write_bond_table(const State& state, const std::vector<int>& o
     append_rows(bonds_.shear_stiffness, shear_stiffness);
 }
 
-void Hdf5Results::write_bond_state(const State& state, const std::vector<int>& order)
+/// Rows of the bonds that there are, new ones at the end; a bond whose grain was split keeps its row as it was last.
+std::vector<Hdf5Results::BondRow> Hdf5Results::update_bonds(const State& state)
 {
     const int interfaces = state.interfaces.size();
-    std::vector<double> failure_time;
-    std::vector<std::int32_t> cause;
-    for (const int i : order) {
+    std::vector<BondRow> rows;
+    std::vector<int> fresh;
+    std::map<std::pair<std::int32_t, std::int32_t>, int> seen;
+    for (const int i : bond_order(state)) {
         const bool face = i < interfaces;
-        failure_time.push_back(face ? state.interfaces.failure_time[i] : state.parallels.failure_time[i - interfaces]);
-        cause.push_back(static_cast<std::int32_t>(face ? interface_cause(state.interfaces, i)
-                                                       : parallel_cause(state.parallels, i - interfaces)));
+        const int a = face ? state.interfaces.a[i] : state.parallels.a[i - interfaces];
+        const int b = face ? state.interfaces.b[i] : state.parallels.b[i - interfaces];
+        const std::pair<std::int32_t, std::int32_t> pair = std::minmax({state.bodies.id[a], state.bodies.id[b]});
+        const auto [found, is_new] =
+            bond_rows_.emplace(std::tuple{pair.first, pair.second, seen[pair]++}, bond_rows_.size());
+        if (is_new) fresh.push_back(i);
+        rows.push_back({i, found->second});
     }
-    bonds_.failure_time.write({0}, {order.size()}, failure_time);
+    write_bond_table(state, fresh);
+    bond_failure_.resize(bond_rows_.size(), -1.0);
+    bond_cause_.resize(bond_rows_.size(), 0);
+    for (const BondRow& r : rows) {
+        const bool face = r.bond < interfaces;
+        bond_failure_[r.row] =
+            face ? state.interfaces.failure_time[r.bond] : state.parallels.failure_time[r.bond - interfaces];
+        bond_cause_[r.row] = static_cast<std::int32_t>(face ? interface_cause(state.interfaces, r.bond)
+                                                            : parallel_cause(state.parallels, r.bond - interfaces));
+    }
+    bonds_.failure_time.write({0}, {bond_failure_.size()}, bond_failure_);
     bonds_.failure_time.flush();
-    bonds_.cause.write({0}, {order.size()}, cause);
+    bonds_.cause.write({0}, {bond_cause_.size()}, bond_cause_);
     bonds_.cause.flush();
+    return rows;
 }
 
 void Hdf5Results::append_cracks(const std::vector<CrackFace>& cracks)
 {
-    // Cracks do not heal and come in the order of their times, so that those not yet stored are the last ones.
-    const auto stored = static_cast<std::ptrdiff_t>(cracks_.time.rows());
-    if (static_cast<std::ptrdiff_t>(cracks.size()) <= stored) return;
-    const std::vector<CrackFace> fresh(cracks.begin() + stored, cracks.end());
+    // Cracks do not heal and come in the order of their times: fresh ones are later than all that are stored. (A split
+    // grain shares out its broken faces too; those are no new cracks.)
+    std::vector<CrackFace> fresh;
+    for (const CrackFace& crack : cracks) {
+        if (crack.time > last_crack_) fresh.push_back(crack);
+    }
+    if (fresh.empty()) return;
+    last_crack_ = fresh.back().time;
     auto& c = cracks_;
     append_column<double>(c.first_damage_time, fresh, [](const CrackFace& f) { return f.first_damage_time; });
     append_column<std::int32_t>(c.mode, fresh, [](const CrackFace& f) { return f.mode; });
@@ -335,9 +354,7 @@ void Hdf5Results::finish(const Model& model, const State& state, const SnapshotF
 {
     if (last_step_ == state.step) return;
     constexpr std::int32_t after_the_last = -1;
-    const std::vector<int> order = bond_order(state);
-    if (snapshots_.time.rows() == 0) write_bond_table(state, order);
-    write_bond_state(state, order);
+    update_bonds(state);
     append_cracks(cracks);
     append_fragments(collect_fragments(model, state, fields), state, after_the_last);
 }

@@ -7,6 +7,8 @@
 #include "io/hdf5_file.h"
 #include "io/results.h"
 
+#include <map>
+#include <tuple>
 #include <unordered_map>
 
 namespace grainfrac {
@@ -34,7 +36,11 @@ private:
     void make_fragments();
     void append_grains(const State& state, const SnapshotFields& fields);
     void write_bond_table(const State& state, const std::vector<int>& order);
-    void write_bond_state(const State& state, const std::vector<int>& order);
+    struct BondRow {
+        int bond = 0;  // interfaces first, then parallel bonds
+        hsize_t row = 0;
+    };
+    std::vector<BondRow> update_bonds(const State& state);
     void append_cracks(const std::vector<CrackFace>& cracks);
     void append_fragments(const std::vector<Fragment>& fragments, const State& state, std::int32_t snapshot);
 
@@ -54,6 +60,10 @@ private:
         Hdf5Growing snapshot, time, cluster, grains, mass, volume, center, velocity;
     } fragments_;
     std::unordered_map<std::int32_t, hsize_t> grain_rows_;
+    std::map<std::tuple<std::int32_t, std::int32_t, int>, hsize_t> bond_rows_;  // ids of the grains, number in the pair
+    std::vector<double> bond_failure_;
+    std::vector<std::int32_t> bond_cause_;
+    double last_crack_ = -1.0;     // [s]
     std::int64_t last_step_ = -1;  // of the last snapshot
 };
 

@@ -288,6 +288,13 @@ private:
         member.assign(value.children.size(), 0.0);
         for (std::size_t i = 0; i < member.size(); ++i) get_element(value, path, i, member[i], facts);
     }
+    void get(const Node& value, const std::string& path, std::vector<std::string>& member, const Facts& facts)
+    {
+        if (!is_array_of(value, path, value.children.size(), expected(member, facts))) return;
+        if (value.children.empty()) return fail(path, "is empty; must be " + expected(member, facts));
+        member.assign(value.children.size(), {});
+        for (std::size_t i = 0; i < member.size(); ++i) get_element(value, path, i, member[i], facts);
+    }
     void get(const Node& value, const std::string& path, std::array<std::string, 2>& member, const Facts& facts)
     {
         if (!is_array_of(value, path, 2, expected(member, facts))) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/input_check.h"
 
+#include "generate/crystal.h"
 #include "io/input_document.h"
 
 #include <fmt/format.h>
@@ -84,6 +85,13 @@ private:
         }
         for (const MaterialSpec& m : c_.materials) {
             enter_name(m.name, joined("materials", m.name), "a material");
+            for (std::size_t k = 0; k < m.cleavage.planes.size(); ++k) {
+                try {
+                    parse_crystal_planes(m.cleavage.planes[k]);
+                } catch (const std::invalid_argument& e) {
+                    fail(fmt::format("{}.cleavage.planes[{}]", joined("materials", m.name), k), e.what());
+                }
+            }
             material_names_.push_back(m.name);
         }
         for (std::size_t i = 0; i < c_.parts.size(); ++i) {

@@ -98,6 +98,10 @@ std::string expected(const std::vector<double>&, const Facts& facts)
 {
     return fmt::format("an array such as [{0}, {0}]", example(facts));
 }
+std::string expected(const std::vector<std::string>&, const Facts&)
+{
+    return "an array of texts such as [\"{10-10}\"]";
+}
 std::string expected(const std::array<std::string, 2>&, const Facts&)
 {
     return "an array of 2 names such as [\"*\", \"*\"]";

@@ -63,6 +63,10 @@ std::string toml_text(const std::vector<double>& v)
 {
     return toml_list(v);
 }
+std::string toml_text(const std::vector<std::string>& v)
+{
+    return toml_list(v);
+}
 std::string toml_text(const std::array<std::string, 2>& v)
 {
     return toml_list(v);
@@ -172,6 +176,10 @@ std::string kind(const std::array<double, 2>&, const Facts& f)
 std::string kind(const std::vector<double>&, const Facts& f)
 {
     return "list of " + kind(double{}, f);
+}
+std::string kind(const std::vector<std::string>&, const Facts&)
+{
+    return "list of texts";
 }
 std::string kind(const std::array<std::string, 2>&, const Facts&)
 {

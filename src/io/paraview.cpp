@@ -124,8 +124,7 @@ std::vector<int> grain_rows(const Model& model, const State& state)
 {
     std::vector<int> rows;
     for (int i = 0; i < state.bodies.size(); ++i) {
-        const auto id = static_cast<std::size_t>(state.bodies.id[i]);
-        if (state.bodies.wall[i] < 0 && id < model.grain_shapes.size() && !model.grain_shapes[id].faces.empty())
+        if (state.bodies.wall[i] < 0 && !model.grain_shapes[static_cast<std::size_t>(i)].faces.empty())
             rows.push_back(i);
     }
     return rows;
@@ -153,7 +152,15 @@ void add_grain_identity(vtkFieldData* data, const Model& model, const State& sta
 {
     const Bodies& bodies = state.bodies;
     add_integers(data, "grain_id", rows, [&](int i) { return bodies.id[i]; });
-    add_integers(data, "fragment_of", rows, [&](int i) { return bodies.id[i]; });  // no grain splits yet
+    add_integers(data, "fragment_of", rows, [&](int i) { return bodies.origin[i]; });
+    add_integers(data, "parent", rows, [&](int i) { return bodies.parent[i]; });
+    add_integers(data, "generation", rows, [&](int i) { return bodies.generation[i]; });
+    const auto cleavage = [&](int i) {
+        return fields.cleavage.empty() ? Cleavage{} : fields.cleavage.at(static_cast<std::size_t>(i)).worst;
+    };
+    add_numbers(data, "cleavage", rows, [&](int i) { return cleavage(i).f; });
+    add_numbers(data, "K_I", rows, [&](int i) { return cleavage(i).K_I; });
+    add_numbers(data, "K_II", rows, [&](int i) { return cleavage(i).K_II; });
     add_integers(data, "material", rows,
                  [&](int i) { return model.groups.at(static_cast<std::size_t>(bodies.group[i])).material; });
     add_integers(data, "cluster", rows, [&](int i) { return fields.cluster.at(static_cast<std::size_t>(i)); });
@@ -300,7 +307,7 @@ void write_grains(const std::filesystem::path& path, const Model& model, const S
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     for (const int i : rows) {
-        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(state.bodies.id[i])];
+        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(i)];
         add_grain_cell(grid, points, shape, state.bodies.position[i], state.bodies.orientation[i]);
     }
     grid->SetPoints(points);

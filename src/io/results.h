@@ -2,6 +2,7 @@
 // The result folder: history, snapshots, cracks, checkpoints, summary (interface: docs/output.md).
 #pragma once
 
+#include "fracture/cleave.h"
 #include "model/case.h"
 #include "model/model.h"
 #include "model/state.h"
@@ -61,8 +62,9 @@ struct HistoryRow {
 
 /// What a snapshot shows beyond the state itself.
 struct SnapshotFields {
-    std::vector<Mat3> stress;           ///< mean Cauchy stress of each body, tension positive; zero for walls [Pa]
-    std::vector<std::int32_t> cluster;  ///< bonded component of each body, -1 for walls; numbered by size, largest 0
+    std::vector<Mat3> stress;             ///< mean Cauchy stress of each body, tension positive; zero for walls [Pa]
+    std::vector<std::int32_t> cluster;    ///< bonded component of each body, -1 for walls; numbered by size, largest 0
+    std::vector<GrainCleavage> cleavage;  ///< of each body; where no material cleaves, all are as far from it as can be
 };
 
 /// A face that broke.

@@ -35,6 +35,8 @@ struct Bodies {
     Buffer<std::int32_t> origin;      ///< id of the grain that it was at the start [-]
     Buffer<std::int32_t> parent;      ///< id of what it was split from, -1 if it is whole [-]
     Buffer<std::int32_t> generation;  ///< number of splits behind it [-]
+    Buffer<double> split_time;        ///< of the last split behind it, -1 if it is whole [s]
+    Buffer<std::int32_t> saturated;   ///< 1: a split was due and would have made too small a part [-]
     Buffer<double> origin_volume;     ///< of the sharp grain that it was at the start; 0 for walls [m^3]
 
     int size() const { return position.size(); }
@@ -67,6 +69,8 @@ struct Bodies {
         visit("origin", origin);
         visit("parent", parent);
         visit("generation", generation);
+        visit("split_time", split_time);
+        visit("saturated", saturated);
         visit("origin_volume", origin_volume);
     }
 };

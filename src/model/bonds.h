@@ -32,6 +32,7 @@ struct InterfaceBonds {
     Buffer<double> toughness_factor;     ///< scatter: multiplies G_I and G_II [-]
     Buffer<double> opening_limit;        ///< opening beyond which a dead face is handed to general contact [m]
     Buffer<std::int32_t> transgranular;  ///< 1: made by a split, within what was one grain
+    Buffer<double> K_I, K_II;            ///< of the flaw that split the grain; 0 for boundaries [Pa sqrt(m)]
     // state
     Buffer<std::int32_t> retired;                     ///< 1: dead and handed over to general contact
     Buffer<double> damage;                            ///< area mean [-]
@@ -70,6 +71,8 @@ struct InterfaceBonds {
         visit("toughness_factor", toughness_factor);
         visit("opening_limit", opening_limit);
         visit("transgranular", transgranular);
+        visit("K_I", K_I);
+        visit("K_II", K_II);
         visit("retired", retired);
         visit("damage", damage);
         visit("stored_energy", stored_energy);

@@ -20,11 +20,38 @@ struct SimulationSpec {
     std::int64_t seed = 1;
 };
 
+/// How grains of a material split; without planes they never do.
+struct CleavageSpec {
+    std::vector<std::string> planes;           ///< Miller-Bravais: "{10-10}", "{11-20}", "(0001)", ...
+    bool slabs = true;                         ///< also the planes of 2.7 beside the centre, of whole prisms
+    double toughness = 0.0;                    ///< K_c [Pa sqrt(m)]
+    double mode_ratio = 0.816;                 ///< C [-]
+    std::string criterion = "ellipse";         ///< ellipse | shetty | energy
+    std::string flaw = "through";              ///< through | edge | penny
+    double flaw_size = 0.0;                    ///< a [m]
+    std::string flaw_site = "surface";         ///< surface | buried
+    bool finite_width = true;                  ///< K grows with the flaw's share of the plane
+    double friction = 0.3;                     ///< of closed flaws [-]
+    std::string gate = "principal";            ///< principal | hydrostatic | none
+    double hydrostatic_threshold = 0.0;        ///< gate = hydrostatic, tension positive [Pa]
+    std::string new_surface = "cohesive";      ///< cohesive | free
+    std::optional<double> fracture_energy;     ///< G_I of the new surface [J/m^2]; auto: K_c^2 (1 - nu^2)/E
+    std::optional<double> fracture_energy_II;  ///< [J/m^2]; auto: G_I/C^2
+    double residual_friction = 0.4;            ///< [-]
+    std::optional<double> normal_stiffness;    ///< of the new surface [Pa/m]; auto: see cleavage_rules.cpp
+    double damping = 0.05;                     ///< [-]
+    double min_fragment_volume = 0.02;         ///< of the grain at the start [-]
+    double min_section = 0.02;                 ///< of the parent's surface [-]
+    double min_inradius = 3.0;                 ///< of a part, over the parent's dilation radius [-]
+    std::int64_t max_generation = 2;           ///< splits behind a fragment [-]
+};
+
 struct MaterialSpec {
     std::string name;
     double density = 0.0;        ///< [kg/m^3]
     double young_modulus = 0.0;  ///< [Pa]
     double poisson_ratio = 0.0;  ///< [-]
+    CleavageSpec cleavage;
 };
 
 struct RegionSpec {

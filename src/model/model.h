@@ -48,7 +48,7 @@ struct Model {
     std::vector<std::string> walls;  ///< names; Bodies::wall points here
     Buffer<WallMotion> wall_motion;  ///< one per wall, set by the stage
     Shapes shapes;
-    std::vector<Polyhedron> grain_shapes;  ///< sharp polyhedron of each body id in its body frame; empty for walls
+    std::vector<Polyhedron> grain_shapes;  ///< sharp polyhedron of each body in its frame; empty for walls
     Buffer<InterfaceLaw> interface_laws;
     Buffer<ParallelLaw> parallel_laws;
     Buffer<LinearContact> contact_laws;

@@ -18,7 +18,7 @@ inline Case disc_case(double side, bool cut)
 {
     Case c;
     c.simulation.seed = 3;
-    c.materials = {{"sic", 3100, 410e9, 0.17}};
+    c.materials = {{"sic", 3100, 410e9, 0.17, {}}};
     PartSpec p;
     p.name = "disc";
     p.material = "sic";

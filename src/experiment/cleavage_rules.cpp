@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment/cleavage_rules.h"
+
+#include "generate/crystal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+CleavageLaw cleavage_law(const CleavageSpec& s, const MaterialSpec& m)
+{
+    CleavageLaw l;
+    l.toughness = s.toughness;
+    l.mode_ratio = s.mode_ratio;
+    l.flaw_size = s.flaw_size;
+    l.friction = s.friction;
+    l.poisson_ratio = m.poisson_ratio;
+    l.young_modulus = m.young_modulus;
+    // Irwin: initiation and propagation ask for the same energy (14.7)
+    l.fracture_energy = s.toughness * s.toughness * (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
+    l.flaw = s.flaw == "edge" ? FlawShape::edge : s.flaw == "penny" ? FlawShape::penny : FlawShape::through;
+    l.criterion = s.criterion == "shetty"   ? CleavageCriterion::shetty
+                  : s.criterion == "energy" ? CleavageCriterion::energy
+                                            : CleavageCriterion::ellipse;
+    l.finite_width = s.finite_width;
+    return l;
+}
+
+/// The new surface starts to soften from the traction that it inherits; the onset surface serves points that start
+/// pressed and unsheared.
+InterfaceLaw surface_law(const CleavageSpec& s, const CleavageLaw& c)
+{
+    InterfaceLaw l{};
+    l.tensile_strength = c.threshold_stress();
+    l.friction = l.residual_friction = s.residual_friction;
+    l.cohesion = std::max(s.mode_ratio, s.residual_friction) * l.tensile_strength;
+    l.fracture_energy_I = s.fracture_energy.value_or(c.fracture_energy);
+    l.fracture_energy_II = s.fracture_energy_II.value_or(l.fracture_energy_I / (s.mode_ratio * s.mode_ratio));
+    l.mixed_mode_exponent = 2.0;
+    l.onset = OnsetSurface::mohr_coulomb;
+    l.softening = Softening::bilinear;
+    l.failure = FailureUnit::point;
+    l.mixed_mode = MixedMode::benzeggagh_kenane;
+    return l;
+}
+
+/// A new surface holds t^2/2k that no work put there (14.5). Stiff enough that this is at most a tenth of what the
+/// surface costs where it opens at the threshold stress, and no softer than the grains.
+double surface_stiffness(double of_grain, const CleavageLaw& c, const InterfaceLaw& surface)
+{
+    const double t = c.threshold_stress();
+    return std::max(of_grain, 5.0 * t * t / surface.fracture_energy_I);
+}
+
+CleavageGate gate_of(const CleavageSpec& s, const CleavageLaw& l)
+{
+    CleavageGate g;
+    g.kind = s.gate == "none"          ? CleavageGate::Kind::none
+             : s.gate == "hydrostatic" ? CleavageGate::Kind::hydrostatic
+                                       : CleavageGate::Kind::principal_and_shear;
+    g.tension_threshold = l.threshold_stress();
+    g.shear_threshold = s.mode_ratio * l.threshold_stress();
+    g.hydrostatic_threshold = s.hydrostatic_threshold;
+    return g;
+}
+
+}  // namespace
+
+std::vector<CleavageRules> make_cleavage_rules(const Case& c, const std::vector<double>& spacing, Model& model)
+{
+    std::vector<CleavageRules> rules(model.groups.size());
+    for (std::size_t g = 0; g < c.parts.size(); ++g) {
+        const PartSpec& part = c.parts[g];
+        const MaterialSpec& m = *std::find_if(c.materials.begin(), c.materials.end(),
+                                              [&](const MaterialSpec& x) { return x.name == part.material; });
+        const CleavageSpec& s = m.cleavage;
+        if (s.planes.empty()) continue;
+        CleavageRules& r = rules[g];
+        const CleavageLaw law = cleavage_law(s, m);
+        const double side = s.slabs && part.generator == "hexagonal_prisms" ? part.side : 0.0;
+        for (const std::string& planes : s.planes)
+            r.families.push_back({law, cleavage_planes(parse_crystal_planes(planes), side)});
+        r.gate = gate_of(s, law);
+        r.surface_flaws = s.flaw_site == "surface";
+        r.pause = spacing[g] / std::sqrt(m.young_modulus / m.density);
+        r.split.cohesive = s.new_surface == "cohesive";
+        r.split.law = model.interface_laws.size();
+        const InterfaceLaw surface = surface_law(s, law);
+        model.interface_laws.host().push_back(surface);
+        r.split.normal_stiffness =
+            s.normal_stiffness.value_or(surface_stiffness(m.young_modulus / spacing[g], law, surface));
+        r.split.shear_stiffness = r.split.normal_stiffness;
+        r.split.damping = s.damping;
+        r.split.least_volume = s.min_fragment_volume;
+        r.split.least_section = s.min_section;
+        r.split.least_inradius = s.min_inradius;
+        r.split.most_generations = static_cast<std::int32_t>(s.max_generation);
+    }
+    return rules;
+}
+
+}  // namespace grainfrac

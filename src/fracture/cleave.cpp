@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fracture/cleave.h"
+
+#include "fracture/plane_tractions.h"
+#include "gpu/thread_pool.h"
+#include "model/grain_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+/// Bodies per share of work that a thread takes at once is the pool's; fewer than this are done by the caller.
+constexpr int least_for_threads = 64;
+
+/// A grain with all that acts on it, in its body frame: the sharp polyhedron as kernels see it, loads, motion.
+struct LoadedGrain {
+    std::vector<std::int32_t> loop_begin, loops;
+    FacesView faces;
+    std::vector<std::vector<Vec3>> corners;
+    std::vector<FaceLoad> face_loads;
+    std::vector<PointLoad> point_loads;
+    GrainMotion motion;
+    double size = 0.0;
+
+    GrainLoads loads()
+    {
+        return {{point_loads.data(), static_cast<int>(point_loads.size())},
+                {face_loads.data(), static_cast<int>(face_loads.size())}};
+    }
+};
+
+LoadedGrain loaded_grain(const Model& model, const State& state, int body)
+{
+    const Bodies& b = state.bodies;
+    const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(body)];
+    const Placement place = placement(b, body);
+    const auto turned = [&](const Vec3& v) { return rotate_back(place.orientation, v); };
+    LoadedGrain g;
+    g.loop_begin.push_back(0);
+    for (const auto& face : shape.faces) {
+        g.loops.insert(g.loops.end(), face.begin(), face.end());
+        g.loop_begin.push_back(static_cast<std::int32_t>(g.loops.size()));
+    }
+    g.faces = {shape.vertices.data(), g.loop_begin.data(), g.loops.data(), static_cast<int>(shape.faces.size())};
+    g.size = bounding_size(shape);
+
+    const Vec3 I = b.inertia[body], w = turned(b.angular_velocity[body]);
+    const Vec3 L{I.x * w.x, I.y * w.y, I.z * w.z}, t = turned(b.torque[body]) - cross(w, L);
+    const std::size_t material =
+        static_cast<std::size_t>(model.groups[static_cast<std::size_t>(b.group[body])].material);
+    g.motion.density = model.materials[material].density;
+    g.motion.acceleration = turned(b.force[body]) * b.inverse_mass[body];
+    g.motion.angular_velocity = w;
+    g.motion.angular_acceleration = {t.x / I.x, t.y / I.y, t.z / I.z};
+    g.motion.body_force = turned(model.gravity);
+
+    const int begin = state.incidence.begin[body], end = state.incidence.begin[body + 1];
+    g.corners.reserve(static_cast<std::size_t>(end - begin));
+    for (int k = begin; k < end; ++k) {
+        const int entry = state.incidence.entry[k], slot = entry / 2;
+        const bool is_a = entry % 2 == 0;
+        const Vec3 force = turned(is_a ? -state.slots.force[slot] : state.slots.force[slot]);
+        const Vec3 torque = turned(is_a ? state.slots.torque_a[slot] : state.slots.torque_b[slot]);
+        if (norm2(force) + norm2(torque) == 0.0) continue;
+        const InterfaceBonds& f = state.interfaces;
+        if (slot < f.size()) {
+            const Buffer<Vec3>& positions = is_a ? state.corners.position_a : state.corners.position_b;
+            std::vector<Vec3> corners;
+            for (int c = f.corner_begin[slot]; c < f.corner_begin[slot + 1]; ++c) corners.push_back(positions[c]);
+            if (!is_a) std::reverse(corners.begin(), corners.end());  // counter-clockwise from outside the grain
+            const PlaneMoments m = plane_moments(corners.data(), static_cast<int>(corners.size()));
+            g.corners.push_back(std::move(corners));
+            const Wrench resultant{force, torque - cross(m.centroid, force)};
+            g.face_loads.push_back(
+                {g.corners.back().data(), static_cast<int>(g.corners.back().size()), fit_tractions(m, resultant)});
+        } else {
+            const int parallel = slot - f.size();
+            Vec3 point;
+            if (parallel < state.parallels.size()) {
+                point = (is_a ? state.parallels.position_a : state.parallels.position_b)[parallel];
+            } else {
+                point = place.to_body(state.contacts.point[slot - state.bond_slots()].position);
+            }
+            g.point_loads.push_back({point, force, torque - cross(point, force)});
+        }
+    }
+    return g;
+}
+
+/// A grain that is bent has little stress in the mean: what one of its faces carries lets it through as well.
+bool face_passes(const Model& model, const State& state, int body, const CleavageGate& gate)
+{
+    if (gate.kind != CleavageGate::Kind::principal_and_shear) return false;
+    const LoadedGrain grain = loaded_grain(model, state, body);
+    for (const FaceLoad& f : grain.face_loads) {
+        for (int k = 0; k < f.count; ++k) {
+            if (f.traction.normal_stress(f.corners[k]) >= gate.share * gate.tension_threshold ||
+                norm(f.traction.shear_stress(f.corners[k])) >= gate.share * gate.shear_threshold)
+                return true;
+        }
+    }
+    return false;
+}
+
+GrainCleavage worst_plane(const Model& model, const State& state, int body, const CleavageRules& rules)
+{
+    LoadedGrain grain = loaded_grain(model, state, body);
+    const GrainLoads loads = grain.loads();
+    const Placement place = placement(state.bodies, body);
+    const Quat crystal = state.bodies.crystal[body];
+    const bool whole = state.bodies.generation[body] == 0;
+    GrainCleavage found;
+    for (std::size_t f = 0; f < rules.families.size(); ++f) {
+        const CleavageFamily& family = rules.families[f];
+        for (const Plane& candidate : family.planes) {
+            if (!whole && candidate.offset != 0.0) continue;  // slabs are places within the undisturbed grain
+            const Plane plane{rotate(crystal, candidate.normal), candidate.offset};
+            const PlaneCut cut = cut_by_plane(grain.faces, plane, grain.size);
+            if (cut.status != CutStatus::ok) continue;
+            const PlaneTractions t = plane_tractions(cut, grain.motion, loads);
+            const Cleavage c = rules.surface_flaws
+                                   ? surface_flaw(family.law, t.field, cut.section.corners, cut.section.count)
+                                   : buried_flaw(family.law, t.field, cut.section.corners, cut.section.count);
+            if (c.f <= found.worst.f) continue;
+            found.worst = c;
+            found.worst.where = place.to_space(c.where);
+            found.family = static_cast<std::int32_t>(f);
+            const Vec3 n = rotate(place.orientation, plane.normal);
+            found.plane = {n, plane.offset + dot(n, place.position)};
+        }
+    }
+    return found;
+}
+
+const CleavageRules* rules_of(const State& state, int body, const std::vector<CleavageRules>& rules)
+{
+    if (state.bodies.inverse_mass[body] == 0.0) return nullptr;
+    const auto group = static_cast<std::size_t>(state.bodies.group[body]);
+    return group >= rules.size() || rules[group].families.empty() ? nullptr : &rules[group];
+}
+
+}  // namespace
+
+std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state, const std::vector<Mat3>& stress,
+                                         const std::vector<CleavageRules>& rules)
+{
+    std::vector<GrainCleavage> found(static_cast<std::size_t>(state.bodies.size()));
+    std::vector<int> look;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        const CleavageRules* r = rules_of(state, i, rules);
+        if (r != nullptr && (r->gate(stress[static_cast<std::size_t>(i)]) || face_passes(model, state, i, r->gate)))
+            look.push_back(i);
+    }
+    struct Work {
+        const Model& model;
+        const State& state;
+        const std::vector<CleavageRules>& rules;
+        const std::vector<int>& look;
+        std::vector<GrainCleavage>& found;
+
+        void operator()(int begin, int end) const
+        {
+            for (int k = begin; k < end; ++k) {
+                const int i = look[static_cast<std::size_t>(k)];
+                found[static_cast<std::size_t>(i)] = worst_plane(model, state, i, *rules_of(state, i, rules));
+            }
+        }
+    };
+    const Work work{model, state, rules, look, found};
+    const int n = static_cast<int>(look.size());
+    if (threads() == 1 || n < least_for_threads) {
+        work(0, n);
+    } else {
+        pool_detail::run([](const void* w, int begin, int end) { (*static_cast<const Work*>(w))(begin, end); }, &work,
+                         n);
+    }
+    return found;
+}
+
+std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,
+                                     const std::vector<CleavageRules>& rules)
+{
+    std::vector<SplitRequest> due;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        const GrainCleavage& c = found[static_cast<std::size_t>(i)];
+        if (c.worst.f < 1.0) continue;
+        const CleavageRules& r = *rules_of(state, i, rules);
+        const double last = state.bodies.split_time[i];
+        if (last >= 0.0 && state.time - last < r.pause) continue;
+        if (state.bodies.saturated[i] != 0) continue;
+        SplitRequest request;
+        request.body = i;
+        request.plane = c.plane;
+        request.rules = state.bodies.group[i];
+        request.K_I = c.worst.K_I;
+        request.K_II = c.worst.K_II;
+        due.push_back(request);
+    }
+    return due;
+}
+
+GrainSection section_tractions(const Model& model, const State& state, int body, const Plane& plane)
+{
+    LoadedGrain grain = loaded_grain(model, state, body);
+    const Placement place = placement(state.bodies, body);
+    const Vec3 n = rotate_back(place.orientation, plane.normal);
+    const PlaneCut cut = cut_by_plane(grain.faces, {n, plane.offset - dot(plane.normal, place.position)}, grain.size);
+    GrainSection s;
+    s.status = cut.status;
+    if (cut.status != CutStatus::ok) return s;
+    const PlaneTractions t = plane_tractions(cut, grain.motion, grain.loads());
+    for (int k = 0; k < cut.section.count; ++k) s.polygon.push_back(place.to_space(cut.section.corners[k]));
+    const auto in_space = [&](const Vec3& v) { return rotate(place.orientation, v); };
+    s.moments = cut.section.moments;
+    s.moments.centroid = place.to_space(s.moments.centroid);
+    for (Vec3* v : {&s.moments.e1, &s.moments.e2, &s.moments.n}) *v = in_space(*v);
+    s.field = t.field;
+    s.field.centroid = s.moments.centroid;
+    for (Vec3* v : {&s.field.e1, &s.field.e2, &s.field.n, &s.field.mean}) *v = in_space(*v);
+    return s;
+}
+
+}  // namespace grainfrac

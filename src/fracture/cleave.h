@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which grains split now: candidate planes of each crystal, the tractions across them, the criterion.
+#pragma once
+
+#include "fracture/cleavage.h"
+#include "fracture/split_grains.h"
+#include "model/model.h"
+#include "model/state.h"
+
+#include <vector>
+
+namespace grainfrac {
+
+/// One family of planes of a crystal: those that symmetry makes equal share the law.
+struct CleavageFamily {
+    CleavageLaw law;
+    std::vector<Plane> planes;  ///< crystal frame, offsets from the grain's centre [m]
+};
+
+/// How grains of one part cleave.
+struct CleavageRules {
+    std::vector<CleavageFamily> families;  ///< empty: never
+    CleavageGate gate;
+    bool surface_flaws = true;  ///< flaws at the edge of the plane, where they are worst; false: in its middle
+    double pause = 0.0;         ///< between splits of one lineage: one elastic transit [s]
+    SplitRules split;
+};
+
+/// How near a grain is to cleaving.
+struct GrainCleavage {
+    Cleavage worst;            ///< where in space; f = 0 if the gate held it back
+    std::int32_t family = -1;  ///< of the worst plane
+    Plane plane;               ///< in space
+};
+
+/// The worst plane of every grain; entries of walls, and of grains that the gate holds back, are empty. `stress`: of
+/// each body, as grain_stress gives it. `rules`: one per group (part). Needs the slots of the last step.
+/// Independent of thread count. Ties go to the first family and plane.
+std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state, const std::vector<Mat3>& stress,
+                                         const std::vector<CleavageRules>& rules);
+
+/// Requests for those that reach f >= 1 and may split now, in the order of the bodies.
+std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,
+                                     const std::vector<CleavageRules>& rules);
+
+/// Traction across a plane (in space) of one grain, and the polygon; status as cut_by_plane.
+struct GrainSection {
+    CutStatus status = CutStatus::degenerate;
+    std::vector<Vec3> polygon;  ///< in space [m]
+    PlaneMoments moments;       ///< in space
+    TractionField field;        ///< in space
+};
+GrainSection section_tractions(const Model& model, const State& state, int body, const Plane& plane);
+
+}  // namespace grainfrac
