@@ -110,7 +110,8 @@ const Wrong wrong_values[] = {
     {B, "[[parts]]", "[parts]", "error: FILE:10: parts: is a table; must be an array of tables, [[parts]]\n"},
     {B, "[output]\nevery = \"10 us\"", "output = 3",
      "error: FILE:33: test.output = 3: unknown key; known here: kind, platen_speed, platen, platen_radius, "
-     "contact_half_width, direction, ramp, stop\n"},
+     "contact_half_width, direction, ends, grip_length, wall_friction, outer_span, inner_span, roller_radius, "
+     "notch_depth, crack_length, drop_height, side_gap, ramp, stop\n"},
     {B, "stop = { load_drop = 0.5 }", "stop = 3", "error: FILE:31: test.stop = 3: is an integer; must be a table\n"},
     // names
     {B, "material = \"sic\"", "material = \"sci\"",
@@ -167,8 +168,9 @@ const Wrong wrong_values[] = {
     {B, "side =", "orientation = { choices = [] }\nside =",
      "error: FILE:13: parts[0].orientation.choices = []: is empty; must be an array such as [\"1 rad\", \"1 rad\"]\n"},
     {B, "platen_speed = \"20 mm/s\"\n", "",
-     "error: FILE:28: test.platen_speed: missing; required with kind = \"brazilian\": a quantity > 0 m/s such as \"1 "
-     "m/s\"\n"},
+     "error: FILE:28: test.platen_speed: missing; required with any kind but \"custom\" and \"drop\": a quantity > 0 "
+     "m/s "
+     "such as \"1 m/s\"\n"},
     {B, "height = \"5 mm\"", "height = \"5 mm\", axis = \"x\"",
      "error: FILE:15: parts[0].region.axis = \"x\": must be \"z\" in a brazilian test\n"},
     {B, "{ shape = \"disc\", diameter = \"15 mm\", height = \"5 mm\" }", "{ shape = \"box\", size = [1, 1, 1] }",
@@ -187,7 +189,8 @@ const Wrong wrong_values[] = {
      "error: FILE:17: stages[0]: never ends; required: at least one of duration, unbalanced_force_ratio, load_drop, "
      "max_displacement, or test.stop.time\n"},
     {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[test]\nplaten_speed = 1",
-     "error: FILE:22: test.platen_speed = 1: has no meaning here; it goes with kind = \"brazilian\"\n"},
+     "error: FILE:22: test.platen_speed = 1: has no meaning here; it goes with any kind but \"custom\" and "
+     "\"drop\"\n"},
     {C, "name = \"top\"", "name = \"top\"\nnormal = [0, 0, 0]",
      "error: FILE:15: walls[0].normal = [0, 0, 0]: must not be zero\n"},
     {C, "size = [0.01, 0.01]", "shape = \"sphere\"",
@@ -253,8 +256,9 @@ TEST_CASE("five mistakes are reported together, in the order of the file", "[inp
           "error: FILE:15: parts[0].region.diameter = \"15 kg\": is a mass; expected a length, e.g. \"1 m\"\n"
           "error: FILE:17: bonds[0].cohesion: missing; required with failure = \"point\" or \"face\": a quantity > 0 "
           "Pa such as \"1 Pa\"\n"
-          "error: FILE:28: test.kind = \"brasilian\": must be one of \"brazilian\", \"custom\"; did you mean "
-          "\"brazilian\"?\n");
+          "error: FILE:28: test.kind = \"brasilian\": must be one of \"brazilian\", "
+          "\"uniaxial_compression\", \"uniaxial_tension\", \"three_point_bending\", \"four_point_bending\", "
+          "\"notched_beam\", \"dcb\", \"drop\", \"custom\"; did you mean \"brazilian\"?\n");
 }
 
 TEST_CASE("wrong values of the command line", "[input]")
