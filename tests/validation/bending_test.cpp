@@ -126,7 +126,10 @@ double moment_at_mid_span(const Built& b, const Vec3& middle)
     return M;
 }
 
-TEST_CASE("four-point bending: slope of the grain stress over the height is M/I within 2.3 % at 5 rows")
+// The free zigzag rows lower the bending stiffness of n rows to (1 - 1/(3 n))^3 E I, as they lower the tensile one to
+// 1 - 1/(3 n); so the interior rows bear sigma_xx = M y/((1 - 1/(3 n))^3 I). The lattice itself is off by 2.3 % at 5
+// rows.
+TEST_CASE("four-point bending: slope of the grain stress over the height is M/I_effective within 2.3 % at 5 rows")
 {
     const int rows = 5;
     Case c = layer(31, rows, "four_point_bending");
@@ -157,8 +160,9 @@ TEST_CASE("four-point bending: slope of the grain stress over the height is M/I 
         y.push_back(1.5 * r * static_cast<double>(row));
         s.push_back(sum.first / sum.second);
     }
-    const double ratio = -slope(y, s) / (std::fabs(M) / I);
-    WARN("slope of sigma_xx over the height is " << ratio << " of M/I; M is " << std::fabs(M) / nominal
+    const double effective = I * std::pow(1.0 - 1.0 / (3.0 * rows), 3);
+    const double ratio = -slope(y, s) / (std::fabs(M) / effective);
+    WARN("slope of sigma_xx over the height is " << ratio << " of M/I_effective; M is " << std::fabs(M) / nominal
                                                  << " of P L_i/2; platen imbalance " << m.platen_imbalance);
     CHECK(ratio == Approx(1.0).margin(0.023));
 }
