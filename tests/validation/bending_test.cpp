@@ -211,3 +211,41 @@ TEST_CASE("double cantilever beam: release rate is the derivative of the complia
     CHECK(arms(a).release_rate(5.0) == Approx(25.0 / (2 * b) * slope).epsilon(1e-8));
     CHECK(arms(a).release_rate(5.0) == Approx(0.25 * 25.0 * (a + f) * (a + f) / (b * EI)).epsilon(1e-12));
 }
+
+TEST_CASE("lengths that do not fit the specimen are refused, with the key that is wrong")
+{
+    const auto wrong_key = [](Case c) {
+        try {
+            build(c, default_device());
+        } catch (const InputError& e) {
+            return e.problems.front().key;
+        }
+        return std::string();
+    };
+    Case c = layer(19, 6, "three_point_bending");
+    c.test.outer_span = 16e-3;
+    CHECK(wrong_key(c) == "");
+    c.test.outer_span = 21e-3;
+    CHECK(wrong_key(c) == "test.outer_span");
+    c.test.outer_span = 16e-3;
+    c.test.roller_radius = 8e-3;
+    CHECK(wrong_key(c) == "test.roller_radius");
+    c = layer(19, 6, "notched_beam");
+    c.test.outer_span = 16e-3;
+    c.test.notch_depth = 6e-3;
+    CHECK(wrong_key(c) == "test.notch_depth");
+    c.test.notch_depth = 2e-3;
+    CHECK(wrong_key(c) == "");
+    c = layer(19, 6, "dcb");
+    c.test.crack_length = 21e-3;
+    CHECK(wrong_key(c) == "test.crack_length");
+    c.test.crack_length = 0.5e-3;  // within the grips
+    CHECK(wrong_key(c) == "test.crack_length");
+    c.test.crack_length = 10e-3;
+    CHECK(wrong_key(c) == "");
+    c = layer(4, 11, "uniaxial_tension");
+    c.test.grip_length = 6e-3;
+    CHECK(wrong_key(c) == "test.grip_length");
+    c.test.grip_length = 1e-6;
+    CHECK(wrong_key(c) == "test.grip_length");
+}
