@@ -39,6 +39,8 @@ constexpr int steps_between_cleavage = 10;
 constexpr double most_energy_error = 0.1;
 /// A residual below this share of E V (as m c_0^2) is round-off, whatever the other terms are: strains of 1e-9.
 constexpr double negligible_energy = 1e-18;
+/// The floor bears the weight within this share of it: not so at the top of a bounce, nor at its lowest point.
+constexpr double balanced = 0.1;
 /// Kinetic over elastic energy counts from this share of the peak load: at the very start both are nothing.
 constexpr double monitored_load = 0.1;
 
@@ -324,6 +326,8 @@ private:
             r.unbalanced_force_ratio < *s.unbalanced_force_ratio) {
             return fmt::format("unbalanced force ratio below {:.2g}", *s.unbalanced_force_ratio);
         }
+        if (s.rest_energy && r.energy.kinetic < *s.rest_energy && std::fabs(r.load - s.weight) < balanced * s.weight)
+            return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
         if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time)
             return "stop.time reached";
         return {};

@@ -34,16 +34,18 @@ Vec3 center_of(const CrackFace& c)
 
 json counts(const Built& b)
 {
-    int grains = 0, walls = 0, spheres = 0;
+    int grains = 0, walls = 0, spheres = 0, gripped = 0;
     for (int i = 0; i < b.state.bodies.size(); ++i) {
-        if (b.state.bodies.inverse_mass[i] == 0.0)
-            ++walls;
-        else if (b.model.grain_shapes[static_cast<std::size_t>(i)].faces.empty())
-            ++spheres;
-        else
+        const bool polyhedron = !b.model.grain_shapes[static_cast<std::size_t>(i)].faces.empty();
+        if (polyhedron) {
             ++grains;
+            gripped += b.state.bodies.inverse_mass[i] == 0.0 ? 1 : 0;
+        } else {
+            ++(b.state.bodies.inverse_mass[i] == 0.0 ? walls : spheres);
+        }
     }
     return {{"grains", grains},
+            {"gripped_grains", gripped},
             {"spheres", spheres},
             {"nodes", 0},
             {"wall_bodies", walls},
@@ -129,12 +131,20 @@ json energy_json(const Ledger& e, const RunRecord& record)
             {"largest_relative_error_before_peak", worst_before_peak}};
 }
 
-json quasi_static_json(const Case& c, const Built& b, const RunRecord& record)
+std::vector<NamedResult> derived_results(const Experiment& e, const RunRecord& record)
+{
+    if (e.results == nullptr) return {};
+    std::vector<CurvePoint> curve;
+    for (const HistoryRow& r : record.rows) curve.push_back({r.time, r.load, r.nominal_strain, r.nominal_stress});
+    return e.results(e, curve);
+}
+
+json quasi_static_json(const Built& b, const RunRecord& record)
 {
     json j = {{"kinetic_over_elastic_to_peak", record.kinetic_over_elastic},
               {"platen_imbalance_at_peak", record.imbalance_at_peak},
               {"recommended_platen_speed_m_per_s", b.experiment.quasi_static_speed}};
-    if (c.test.kind == "brazilian") j["speed_of_each_platen_m_per_s"] = 0.5 * c.test.platen_speed;
+    if (b.experiment.speed_of_each_wall > 0.0) j["speed_of_each_platen_m_per_s"] = b.experiment.speed_of_each_wall;
     j["fulfilled"] = record.kinetic_over_elastic < 1e-2 && record.imbalance_at_peak < 1e-2;
     return j;
 }
@@ -171,6 +181,8 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
                  {"peak_time_s", record.peak_time},
                  {"displacement_at_peak_m", record.peak_displacement}};
     if (b.experiment.specimen.stress_area > 0.0) j["test"]["nominal_strength_Pa"] = record.peak_stress;
+    for (const NamedResult& r : b.experiment.facts) j["test"][r.name] = r.value;
+    for (const NamedResult& r : derived_results(b.experiment, record)) j["test"][r.name] = r.value;
     j["cracks"] = cracks_json(collect_cracks(b.model, b.state), record);
     if (!b.cleavage.empty()) j["splits"] = splits_json(record);
     j["fragments"] = fragments_json(b, fields);
@@ -180,7 +192,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
                      {"linear_end_kg_m_per_s", vector_json(record.last_momentum.linear)},
                      {"angular_start_kg_m2_per_s", vector_json(record.first_momentum.angular)},
                      {"angular_end_kg_m2_per_s", vector_json(record.last_momentum.angular)}};
-    j["quasi_static"] = quasi_static_json(c, b, record);
+    if (b.experiment.quasi_static) j["quasi_static"] = quasi_static_json(b, record);
     j["state_hash"] = fmt::format("{:016x}", state_hash(b.state));
     const double steps = static_cast<double>(b.state.step);
     j["run_time"] = {{"build_s", record.phases.build},

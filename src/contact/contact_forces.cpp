@@ -29,12 +29,12 @@ struct ContactForces {
         const int s = first_slot + i;
         slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
-        if (active[i] != 0) {  // what the springs along the surfaces still held is lost to the last slip
+        if (active[i] > 0) {  // what the springs along the surfaces still held is lost to the last slip
             if (shear_stiffness[i] > 0.0) friction_work[i] += 0.5 * norm2(shear_force[i]) / shear_stiffness[i];
             if (twist_stiffness[i] > 0.0)
                 friction_work[i] += 0.5 * twist_moment[i] * twist_moment[i] / twist_stiffness[i];
         }
-        active[i] = 0;
+        active[i] = point[i].depth < 0.0 ? held_by_bonds : 0;
         shear_force[i] = Vec3{};
         twist_moment[i] = max_overlap[i] = offset_overlap[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =
             shear_stiffness[i] = twist_stiffness[i] = 0.0;
@@ -50,16 +50,15 @@ struct ContactForces {
         return f;
     }
 
-    /// False if the bonds left nothing: they ended open, or long ago.
-    GF_FN bool take_over(int i, const ContactPoint& c, const Law& l, ContactHistory& h) const
+    /// The first contact after the pair's bonds ended: it presses what they pressed, be it nothing, however deep the
+    /// grains are in each other beside the dead faces.
+    GF_FN void take_over(int i, const ContactPoint& c, const Law& l, ContactHistory& h) const
     {
         const Vec3 f = inherited_force(i);
-        if (norm2(f) == 0.0) return false;
         const double pressed = std::fmax(0.0, -dot(f, c.normal)), own = l.area_stiffness * c.overlap_force;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
         match_force(pressed, own, c, h.offset_overlap, h.stiffness_scale);
-        return true;
     }
 
     GF_FN void operator()(int i) const
@@ -73,10 +72,11 @@ struct ContactForces {
         ContactHistory h{shear_force[i],    normal[i],          twist_moment[i],    max_overlap[i],
                          offset_overlap[i], stiffness_scale[i], shear_stiffness[i], twist_stiffness[i]};
         bool taken_over = false;
-        if (active[i] == 0) {
+        if (active[i] != 1) {
             h = ContactHistory{};
             h.normal = c.normal;
-            taken_over = bond_count[i] > 0 && take_over(i, c, l, h);
+            taken_over = active[i] == held_by_bonds;
+            if (taken_over) take_over(i, c, l, h);
             active[i] = 1;
         }
         const Vec3 arm_a = c.position - body.position[a[i]], arm_b = c.position - body.position[b[i]];

@@ -39,7 +39,11 @@ struct FindContacts {
         point[pair] = ContactPoint{};
         const int i = a[pair], j = b[pair];
         const double reach = shapes.bounding_radius[shape[i]] + shapes.bounding_radius[shape[j]];
-        if (norm2(position[j] - position[i]) >= reach * reach || suppressed(pair)) return;
+        if (suppressed(pair)) {
+            point[pair].depth = held_by_bonds;
+            return;
+        }
+        if (norm2(position[j] - position[i]) >= reach * reach) return;
         point[pair] = contact_manifold({shapes, shape[i], position[i], orientation[i]},
                                        {shapes, shape[j], position[j], orientation[j]});
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiment/brazilian.h"
 
+#include "experiment/specimen.h"
 #include "experiment/walls.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,32 +87,7 @@ Experiment set_up_brazilian(const Case& c, Model& model, State& state)
     e.specimen.loaded_wall = walls[0];
     e.specimen.opposite_wall = walls[1];
 
-    Stage load;
-    load.name = "load";
-    for (const WallSpec& w : c.walls) load.wall_velocity.push_back(w.velocity);
-    load.wall_velocity.push_back(-0.5 * c.test.platen_speed * jaw.up);
-    load.wall_velocity.push_back(0.5 * c.test.platen_speed * jaw.up);
-    const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
-    e.wave_speed = std::sqrt(m.young_modulus / m.density);
-    load.ramp = c.test.ramp.value_or(10.0 * diameter / e.wave_speed);
-    load.local_damping = c.control.local_damping;
-    load.duration = c.test.stop.time;
-    load.load_drop = c.test.stop.load_drop;
-    if (c.test.stop.strain) load.displacement = *c.test.stop.strain * diameter;
-    e.stages = {load};
-
-    // closing at failure: about 8 nominal strains sigma_t/E over the diameter, compliance of the contacts included
-    double strength = 0.0;
-    for (const BondSpec& b : c.bonds) strength = std::max(strength, b.tensile_strength);
-    if (strength > 0.0)
-        e.expected_duration = 8.0 * strength / m.young_modulus * diameter / c.test.platen_speed + 0.5 * load.ramp;
-    if (load.displacement) {
-        const double by_strain = *load.displacement / c.test.platen_speed + 0.5 * load.ramp;
-        e.expected_duration = e.expected_duration > 0.0 ? std::min(e.expected_duration, by_strain) : by_strain;
-    }
-    if (load.duration)
-        e.expected_duration =
-            e.expected_duration > 0.0 ? std::min(e.expected_duration, *load.duration) : *load.duration;
+    set_loading_stage(c, model, diameter, e);
     return e;
 }
 

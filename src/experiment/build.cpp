@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/find_pairs.h"
+#include "experiment/bending.h"
 #include "experiment/brazilian.h"
 #include "experiment/cleavage_rules.h"
 #include "experiment/custom.h"
+#include "experiment/dcb.h"
+#include "experiment/drop.h"
 #include "experiment/experiment.h"
 #include "experiment/laws.h"
+#include "experiment/precrack.h"
+#include "experiment/uniaxial.h"
 #include "experiment/walls.h"
 #include "generate/microstructure.h"
 #include "model/validate.h"
@@ -21,6 +26,49 @@ namespace {
 
 /// Skin of the neighbour list over the mean grain spacing: a few rebuilds a run, few pairs that never touch.
 constexpr double default_skin = 0.1;
+
+/// A beam of whole grains rests on its rollers edge on round: without friction it would slip off sideways. Friction
+/// mu of the rollers takes up to mu w/(2 a) from the bending moment, 5 % here for w = a.
+constexpr double default_roller_friction = 0.1;
+
+/// Every test by the name that test.kind gives it.
+struct KnownTest {
+    const char* kind;
+    Experiment (*set_up)(const Case& c, Model& model, State& state);
+};
+constexpr KnownTest known_tests[] = {{"brazilian", set_up_brazilian},
+                                     {"uniaxial_compression", set_up_uniaxial},
+                                     {"uniaxial_tension", set_up_uniaxial},
+                                     {"three_point_bending", set_up_bending},
+                                     {"four_point_bending", set_up_bending},
+                                     {"notched_beam", set_up_bending},
+                                     {"dcb", set_up_dcb},
+                                     {"drop", set_up_drop},
+                                     {"custom", set_up_custom}};
+
+Experiment set_up_test(const Case& c, Model& model, State& state)
+{
+    for (const KnownTest& test : known_tests) {
+        if (c.test.kind == test.kind) return test.set_up(c, model, state);
+    }
+    throw std::logic_error("test " + c.test.kind + " passed the input check");
+}
+
+/// The platens or rollers of a ready-made test have the friction of test.wall_friction, as an entry of [[contacts]] for
+/// them would say; it comes first, so that any entry of the user for them is used instead.
+Case with_wall_friction(Case c)
+{
+    const bool rolls = c.test.kind.ends_with("bending") || c.test.kind == "notched_beam";
+    if (c.test.kind != "uniaxial_compression" && !rolls) return c;
+    ContactSpec spec;
+    for (const ContactSpec& s : c.contacts) {
+        if (s.between[0] == "*" && s.between[1] == "*") spec = s;
+    }
+    spec.between = {"*", rolls ? "roller" : "platen"};
+    spec.friction = c.test.wall_friction.value_or(rolls ? default_roller_friction : 0.0);
+    c.contacts.insert(c.contacts.begin(), spec);
+    return c;
+}
 
 /// Mean diameter of the inscribed balls of each group's grains [m].
 std::vector<double> grain_spacing(const Model& model, const std::vector<GrainSpec>& grains)
@@ -117,20 +165,26 @@ Built build(const Case& c, Device device)
     model.nominal_length = *std::max_element(spacing.begin(), spacing.end());
 
     const BondTable table(c, model);
-    bond_shared_faces(model, state, grains, c.simulation.seed,
-                      [&](int a, int b) { return table.rule_of(state.bodies.group[a], state.bodies.group[b]); });
+    const std::vector<Precrack> cracks = precracks(c, grains);
+    bond_shared_faces(model, state, grains, c.simulation.seed, [&](int a, int b) -> const BondRule* {
+        for (const Precrack& crack : cracks) {
+            if (crack.cuts(grains[static_cast<std::size_t>(a)].site, grains[static_cast<std::size_t>(b)].site))
+                return nullptr;
+        }
+        return table.rule_of(state.bodies.group[a], state.bodies.group[b]);
+    });
     check_bonds_exist(c, model, state, table);
     check_snap_back(model, state, table);
 
+    model.gravity = c.control.gravity;
     for (const WallSpec& w : c.walls) add_wall(model, state, w);
-    built.experiment = c.test.kind == "brazilian" ? set_up_brazilian(c, model, state) : set_up_custom(c, model, state);
+    built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
-    make_contact_laws(c, spacing, model);
+    make_contact_laws(with_wall_friction(c), spacing, model);
     if (std::any_of(c.materials.begin(), c.materials.end(),
                     [](const MaterialSpec& m) { return !m.cleavage.planes.empty(); }))
         built.cleavage = make_cleavage_rules(c, spacing, model);
 
-    model.gravity = c.control.gravity;
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     double strength = 0.0;
     for (const BondSpec& b : c.bonds) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiment/custom.h"
 
+#include "experiment/specimen.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,26 +13,6 @@ namespace {
 int wall_named(const Model& model, const std::string& name)
 {
     return static_cast<int>(std::find(model.walls.begin(), model.walls.end(), name) - model.walls.begin());
-}
-
-/// Extents of the sharp grains.
-struct Extent {
-    Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-};
-Extent specimen_extent(const Model& model, const State& state)
-{
-    Extent e;
-    const Bodies& b = state.bodies;
-    for (int i = 0; i < b.size(); ++i) {
-        for (const Vec3& v : model.grain_shapes[static_cast<std::size_t>(i)].vertices) {
-            const Vec3 x = b.position[i] + rotate(b.orientation[i], v);
-            for (int k = 0; k < 3; ++k) {
-                e.low[k] = std::min(e.low[k], x[k]);
-                e.high[k] = std::max(e.high[k], x[k]);
-            }
-        }
-    }
-    return e;
 }
 
 Stage make_stage(const Case& c, const StageSpec& s, const Model& model)
@@ -67,8 +49,7 @@ Experiment set_up_custom(const Case& c, Model& model, State& state)
         longest += s.duration.value_or(0.0);
         for (std::size_t w = 0; w < s.wall_velocity.size() && e.specimen.loaded_wall < 0; ++w) {
             if (norm(s.wall_velocity[w]) == 0.0) continue;
-            const Extent x = specimen_extent(model, state);
-            const Vec3 d = normalized(s.wall_velocity[w]), size = x.high - x.low;
+            const Vec3 d = normalized(s.wall_velocity[w]), size = specimen_extent(model, state).size();
             e.specimen.loaded_wall = static_cast<std::int32_t>(w);
             e.specimen.load_direction = d;
             e.specimen.length = std::fabs(d.x) * size.x + std::fabs(d.y) * size.y + std::fabs(d.z) * size.z;

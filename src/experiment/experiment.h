@@ -24,6 +24,8 @@ struct Stage {
     std::optional<double> load_drop;               ///< share of the peak load of this stage [-]
     std::optional<double> displacement;            ///< closing of the walls [m]
     std::optional<double> unbalanced_force_ratio;  ///< [-]
+    std::optional<double> rest_energy;  ///< at rest: kinetic energy below this, the load that of the weight [J]
+    double weight = 0.0;                ///< for rest_energy [N]
 };
 
 /// What the measures refer to.
@@ -36,6 +38,19 @@ struct Specimen {
     bool compression = true;          ///< load is the magnitude of a push
 };
 
+/// A row of the history, as far as derived results need it.
+struct CurvePoint {
+    double time = 0.0;    ///< [s]
+    double load = 0.0;    ///< [N]
+    double strain = 0.0;  ///< nominal [-]
+    double stress = 0.0;  ///< nominal [Pa]
+};
+/// An entry of summary.json under "test", e.g. "modulus_Pa".
+struct NamedResult {
+    std::string name;
+    double value = 0.0;
+};
+
 struct Experiment {
     std::string kind;
     Specimen specimen;
@@ -43,6 +58,11 @@ struct Experiment {
     double expected_duration = 0.0;   ///< guess from elasticity and strength, for output intervals and time left [s]
     double wave_speed = 0.0;          ///< sqrt(E/rho) of the first material [m/s]
     double quasi_static_speed = 0.0;  ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
+    double speed_of_each_wall = 0.0;  ///< that the test drives; 0: not known [m/s]
+    bool quasi_static = true;         ///< else inertia belongs to the test, and nothing warns of it
+    std::vector<NamedResult> facts;   ///< lengths that the test chose or found, for summary.json
+    /// What the curve says beyond its peak; nullptr: nothing.
+    std::vector<NamedResult> (*results)(const Experiment&, const std::vector<CurvePoint>& curve) = nullptr;
 };
 
 struct Measurement {
@@ -58,7 +78,7 @@ struct Built {
     Model model;
     State state;
     Experiment experiment;
-    std::vector<CleavageRules> cleavage;  ///< one per group; empty where no material cleaves
+    std::vector<CleavageRules> cleavage{};  ///< one per group; empty where no material cleaves
 };
 Built build(const Case& c, Device device);
 

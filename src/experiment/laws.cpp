@@ -17,7 +17,8 @@ int closeness(const std::string& word, const Model& model, int group)
 {
     const Group& g = model.groups[static_cast<std::size_t>(group)];
     if (word == g.name) return 3;
-    if (word == "platen" && g.is_wall && g.name.rfind("platen_", 0) == 0) return 2;
+    const bool family = word == "platen" || word == "roller";
+    if (family && g.is_wall && g.name.rfind(word + "_", 0) == 0) return 2;
     if (g.material >= 0 && word == model.materials[static_cast<std::size_t>(g.material)].name) return 1;
     return word == "*" ? 0 : -1;
 }

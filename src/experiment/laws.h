@@ -11,7 +11,7 @@
 namespace grainfrac {
 
 /// Index of the most specific entry whose `between` covers groups a and b, -1 if none does. A group is named by its own
-/// name, "platen" (both platens of a ready-made test), its material, or "*"; the later of equals wins.
+/// name, "platen" or "roller" (all of a ready-made test), its material, or "*"; the later of equals wins.
 int most_specific(const std::vector<std::array<std::string, 2>>& betweens, const Model& model, int group_a,
                   int group_b);
 

@@ -50,12 +50,17 @@ double least_gap(const Model& model, const State& state, const std::vector<int>&
 
 bool move_to_touch(const Model& model, State& state, int wall, const Vec3& direction)
 {
-    const double closed = 1e-13 * model.nominal_length;  // gap that counts as touching: round-off of the distances
-    constexpr int most_rounds = 2000;
     std::vector<int> bodies;
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (state.bodies.wall[i] == wall) bodies.push_back(i);
     }
+    return move_to_touch(model, state, bodies, direction);
+}
+
+bool move_to_touch(const Model& model, State& state, const std::vector<int>& bodies, const Vec3& direction)
+{
+    const double closed = 1e-13 * model.nominal_length;  // gap that counts as touching: round-off of the distances
+    constexpr int most_rounds = 2000;
     const std::vector<Vec3> before = state.bodies.position.host();
     double travelled = 0.0, limit = 0.0;
     for (const Vec3& x : before)
@@ -91,6 +96,12 @@ void add_plate(Model& model, State& state, int wall, const Vec3& face_center, co
     const Mat3 axes = transpose(Mat3{{e, f, n}});  // columns: box axes in space
     add_wall_plate(model, state, wall, group_of_wall(model, wall), rotated(box, from_matrix(axes)),
                    face_center - (0.5 * thickness) * n, radius);
+}
+
+int add_cylinder(Model& model, State& state, int wall, const Vec3& axis, double length, const Vec3& center,
+                 double radius)
+{
+    return add_wall_round(model, state, wall, group_of_wall(model, wall), axis, length, center, radius);
 }
 
 void add_wall(Model& model, State& state, const WallSpec& spec)

@@ -7,6 +7,7 @@
 #include "model/state.h"
 
 #include <string>
+#include <vector>
 
 namespace grainfrac {
 
@@ -18,9 +19,15 @@ int add_wall(Model& model, const std::string& name);
 void add_plate(Model& model, State& state, int wall, const Vec3& face_center, const Vec3& normal, const Vec3& along,
                double width, double depth, double thickness);
 
+/// Cylinder of wall `wall` with its axis through `center`; returns its body.
+int add_cylinder(Model& model, State& state, int wall, const Vec3& axis, double length, const Vec3& center,
+                 double radius);
+
 /// Move the bodies of a wall along the unit vector `direction` until the first of them touches a free body: gap 0, no
 /// overlap, found by conservative advancement. False (nothing moved) if they would pass all bodies.
 bool move_to_touch(const Model& model, State& state, int wall, const Vec3& direction);
+/// The same for these driven bodies alone.
+bool move_to_touch(const Model& model, State& state, const std::vector<int>& bodies, const Vec3& direction);
 
 /// A wall of the input with its body.
 void add_wall(Model& model, State& state, const WallSpec& spec);

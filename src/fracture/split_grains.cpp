@@ -508,7 +508,7 @@ std::vector<OldContact> take_contacts(State& state, const std::vector<Parting>& 
         const bool concerned = std::any_of(partings.begin(), partings.end(), [&](const Parting& p) {
             return p.request.body == c.a[i] || p.request.body == c.b[i];
         });
-        if (!concerned || c.active[i] == 0) continue;
+        if (!concerned || c.active[i] != 1) continue;
         old.push_back({c.a[i], c.b[i], c.normal_force[i] - c.viscous_force[i], c.shear_force[i]});
         state.past_contacts.inserted_work -= c.stored_energy[i];
         at(c.stored_energy, i) = at(c.viscous_force, i) = 0.0;
@@ -569,7 +569,7 @@ std::vector<int> give_contacts(const Model& model, State& state, const std::vect
         const bool concerned = std::any_of(partings.begin(), partings.end(), [&](const Parting& p) {
             return p.request.body == c.a[i] || p.request.body == c.b[i] || p.part_1 == c.a[i] || p.part_1 == c.b[i];
         });
-        if (!concerned || c.active[i] != 0 || c.point[i].overlap_energy <= 0.0) continue;
+        if (!concerned || c.active[i] == 1 || c.point[i].overlap_energy <= 0.0) continue;
         at(c.active, i) = 1;
         at(c.normal, i) = c.point[i].normal;
         at(c.offset_overlap, i) = std::sqrt(2.0 * c.point[i].overlap_energy);

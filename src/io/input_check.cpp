@@ -33,8 +33,12 @@ public:
         for (std::size_t i = 0; i < c_.bonds.size(); ++i) bond(c_.bonds[i], joined("bonds", i));
         for (std::size_t i = 0; i < c_.walls.size(); ++i) wall(c_.walls[i], joined("walls", i));
         for (std::size_t i = 0; i < c_.stages.size(); ++i) stage(c_.stages[i], joined("stages", i));
-        if (c_.test.kind == "brazilian" && right("test.kind")) brazilian();
-        if (c_.test.kind == "custom" && right("test.kind")) custom();
+        if (right("test.kind")) {
+            if (c_.test.kind == "custom")
+                custom();
+            else
+                ready_made();
+        }
         output();
     }
 
@@ -68,13 +72,27 @@ private:
         if (!given(key) || !right(key)) return;
         if (!is_name(name))
             return fail(key, fmt::format("the name of {} must consist of letters, digits, _ and -", what));
-        if (c_.test.kind == "brazilian" && (name == "platen" || name == "platen_top" || name == "platen_bottom")) {
-            return fail(key, "this name belongs to the platens of the brazilian test");
-        }
+        const std::vector<std::string> walls = walls_of_test();
+        if (std::find(walls.begin(), walls.end(), name) != walls.end())
+            return fail(key, fmt::format("this name belongs to the walls of the {} test", c_.test.kind));
         if (const auto [entry, is_new] = owner_.try_emplace(name, what); !is_new) {
             fail(key, fmt::format("{} of this name exists already; parts, materials and walls need different names",
                                   entry->second));
         }
+    }
+
+    /// Names of the walls that a ready-made test makes.
+    std::vector<std::string> walls_of_test() const
+    {
+        const std::string& kind = c_.test.kind;
+        if (kind == "drop") return {"floor", "sides"};
+        if (kind == "uniaxial_tension" || kind == "dcb") return {"grip_top", "grip_bottom"};
+        if (kind == "brazilian" || kind == "uniaxial_compression") {
+            if (kind == "uniaxial_compression" && c_.test.ends == "gripped") return {"grip_top", "grip_bottom"};
+            return {"platen", "platen_top", "platen_bottom"};
+        }
+        return kind == "custom" ? std::vector<std::string>{}
+                                : std::vector<std::string>{"roller", "roller_top", "roller_bottom"};
     }
 
     void collect_names()
@@ -109,8 +127,7 @@ private:
             if (!stages.insert(c_.stages[i].name).second) fail(key, "a stage of this name exists already");
         }
         for (const auto& [name, what] : owner_) pair_names_.push_back(name);
-        if (c_.test.kind == "brazilian")
-            pair_names_.insert(pair_names_.end(), {"platen", "platen_top", "platen_bottom"});
+        for (const std::string& name : walls_of_test()) pair_names_.push_back(name);
         pair_names_.emplace_back("*");
     }
 
@@ -248,15 +265,52 @@ private:
             fail(path + ".max_displacement", "no wall moves in this stage");
     }
 
+    void ready_made()
+    {
+        const TestSpec& t = c_.test;
+        const std::string a_test = fmt::format("a {} test", t.kind);
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) {
+            fail(joined("stages", i), a_test + " makes its own stages; use test.kind = \"custom\"");
+        }
+        if (right("test.stop")) {
+            if (t.kind == "drop") {
+                if (!t.stop.time && !t.stop.rest)
+                    fail("test.stop", "the run would never end; required: at least one of time, rest");
+                if (t.stop.load_drop) fail("test.stop.load_drop", "has no meaning in a drop test; use time or rest");
+                if (t.stop.strain) fail("test.stop.strain", "has no meaning in a drop test; use time or rest");
+            } else {
+                if (!t.stop.load_drop && !t.stop.strain && !t.stop.time)
+                    fail("test.stop", "the run would never end; required: at least one of load_drop, strain, time");
+                if (t.stop.rest) fail("test.stop.rest", "has no meaning here; it goes with kind = \"drop\"");
+            }
+        }
+        if (t.kind == "brazilian") brazilian();
+        if (t.kind == "four_point_bending" || t.kind == "notched_beam") spans();
+        if (t.kind == "drop") drop();
+    }
+
+    void spans()
+    {
+        const TestSpec& t = c_.test;
+        if (!right("test.inner_span") || !right("test.outer_span") || !(t.outer_span > 0.0)) return;
+        if (t.kind == "four_point_bending" && given("test.inner_span") && t.inner_span == 0.0)
+            return fail("test.inner_span", "must be > 0 m; one loading roller is kind = \"three_point_bending\"");
+        if (t.inner_span >= t.outer_span)
+            fail("test.inner_span", fmt::format("must be < {:.6g} m, the outer span", t.outer_span));
+    }
+
+    void drop()
+    {
+        const Vec3& g = c_.control.gravity;
+        const int along = (g.x != 0.0 ? 1 : 0) + (g.y != 0.0 ? 1 : 0) + (g.z != 0.0 ? 1 : 0);
+        if (along > 1 && right("control.gravity"))
+            fail("control.gravity", "must point along an axis in a drop test; left out it is 9.81 m/s^2 along -z");
+    }
+
     void brazilian()
     {
-        for (std::size_t i = 0; i < c_.stages.size(); ++i) {
-            fail(joined("stages", i), "a brazilian test makes its own stages; use test.kind = \"custom\"");
-        }
-        const StopSpec& stop = c_.test.stop;
-        if (right("test.stop") && !stop.load_drop && !stop.strain && !stop.time) {
-            fail("test.stop", "the run would never end; required: at least one of load_drop, strain, time");
-        }
+        if (c_.test.direction == "z" && right("test.direction"))
+            fail("test.direction", "must be \"x\" or \"y\" in a brazilian test");
         if (c_.parts.empty() || !right("parts[0].region")) return;
         const RegionSpec& region = c_.parts[0].region;
         const std::string path = "parts[0].region";

@@ -486,26 +486,46 @@ void describe(V& v, StopSpec& s)
     v("load_drop", s.load_drop,
       {.range = share_above_0, .unset = "not looked at", .meaning = "when the load fell by this share of its peak"});
     v("strain", s.strain,
+      {.range = positive, .unset = "not looked at", .meaning = "at this nominal strain of a ready-made test"});
+    v("time", s.time, {.unit = "s", .range = positive, .unset = "no limit", .meaning = "at this simulated time"});
+    v("rest", s.rest,
       {.range = positive,
        .unset = "not looked at",
-       .meaning = "when the platens came closer by this share of the specimen's size"});
-    v("time", s.time, {.unit = "s", .range = positive, .unset = "no limit", .meaning = "at this simulated time"});
+       .meaning = "test `drop`: when the kinetic energy is below this share of the weight times `drop_height`, and the "
+                  "floor bears the weight"});
 }
 
 template <class V>
 void describe(V& v, TestSpec& s)
 {
-    const Condition brazilian{s.kind == "brazilian", "kind = \"brazilian\""};
+    const auto is = [&](const char* kind) { return s.kind == kind; };
+    const bool bends = is("three_point_bending") || is("four_point_bending") || is("notched_beam");
+    const Condition brazilian{is("brazilian"), "kind = \"brazilian\""};
+    const Condition driven{!is("custom") && !is("drop"), "any kind but \"custom\" and \"drop\""};
+    const Condition compression{is("uniaxial_compression"), "kind = \"uniaxial_compression\""};
+    const Condition gripped{is("uniaxial_tension") || is("dcb") || (compression.holds && s.ends == "gripped"),
+                            "kind = \"uniaxial_tension\" or \"dcb\", or ends = \"gripped\""};
+    const Condition rubs{bends || (compression.holds && s.ends == "platens"),
+                         "kind = \"uniaxial_compression\" (platens) or bending"};
+    const Condition bending{bends, "kind = \"three_point_bending\", \"four_point_bending\" or \"notched_beam\""};
+    const Condition two_rollers{is("four_point_bending") || is("notched_beam"),
+                                "kind = \"four_point_bending\" or \"notched_beam\""};
+    const Condition notched{is("notched_beam"), "kind = \"notched_beam\""}, dcb{is("dcb"), "kind = \"dcb\""},
+        drop{is("drop"), "kind = \"drop\""};
     v("kind", s.kind,
-      {.words = "brazilian | custom",
+      {.words = "brazilian | uniaxial_compression | uniaxial_tension | three_point_bending | four_point_bending | "
+                "notched_beam | dcb | drop | custom",
        .meaning =
-           "brazilian: a disc pressed along its diameter, platens are made; custom: `[[walls]]` and `[[stages]]`"});
+           "brazilian: a disc pressed along its diameter; uniaxial: pressed or pulled at both ends; bending over "
+           "rollers; notched_beam: bending of a beam with a notch at mid span; dcb: two arms pulled apart; drop: "
+           "grains fall on a floor; all these make their own walls; custom: `[[walls]]` and `[[stages]]`"});
     v("platen_speed", s.platen_speed,
       {.unit = "m/s",
        .range = positive,
        .required = always,
-       .used = brazilian,
-       .meaning = "closing speed of the two platens together"});
+       .used = driven,
+       .meaning =
+           "closing speed of the two platens, or of rollers and supports, together; opening speed of two grips"});
     v("platen", s.platen, {.words = "flat | curved", .used = brazilian, .meaning = "shape of the loaded face"});
     v("platen_radius", s.platen_radius,
       {.unit = "m",
@@ -520,12 +540,68 @@ void describe(V& v, TestSpec& s)
        .unset = "0.05 of the diameter",
        .meaning = "platen `flat`: half width of the platen",
        .source = "Hondros 1959"});
-    v("direction", s.direction, {.words = "x | y", .used = brazilian, .meaning = "axis of loading"});
+    v("direction", s.direction,
+      {.words = "x | y | z",
+       .used = driven,
+       .meaning = "axis of loading; a beam lies along x, or along y if loaded along x (brazilian: x, y)"});
+    v("ends", s.ends,
+      {.words = "platens | gripped",
+       .used = compression,
+       .meaning = "platens press on the ends, or the end grains themselves move and do not turn"});
+    v("grip_length", s.grip_length,
+      {.unit = "m",
+       .range = positive,
+       .used = gripped,
+       .unset = "one row of grains",
+       .meaning = "the grains whose centre is this near to an end are held there; dcb: this near to the open end"});
+    v("wall_friction", s.wall_friction,
+      {.range = not_negative,
+       .used = rubs,
+       .unset = "platens 0, rollers 0.1",
+       .meaning = "Coulomb's mu of platens or rollers, unless an entry of `[[contacts]]` names them"});
+    v("outer_span", s.outer_span,
+      {.unit = "m", .range = positive, .required = always, .used = bending, .meaning = "distance of the supports"});
+    v("inner_span", s.inner_span,
+      {.unit = "m",
+       .range = not_negative,
+       .required = {is("four_point_bending"), "kind = \"four_point_bending\""},
+       .used = two_rollers,
+       .meaning = "distance of the two loading rollers; notched_beam: 0: one roller"});
+    v("roller_radius", s.roller_radius,
+      {.unit = "m",
+       .range = positive,
+       .used = bending,
+       .unset = "half of the beam's height",
+       .meaning = "of all rollers"});
+    v("notch_depth", s.notch_depth,
+      {.unit = "m",
+       .range = positive,
+       .required = always,
+       .used = notched,
+       .meaning = "grains that lie on either side of mid span have no bond up to this height above the lower side"});
+    v("crack_length", s.crack_length,
+      {.unit = "m",
+       .range = positive,
+       .required = always,
+       .used = dcb,
+       .meaning = "grains above and below mid height have no bond up to this distance from the open end"});
+    v("drop_height", s.drop_height,
+      {.unit = "m",
+       .range = not_negative,
+       .required = always,
+       .used = drop,
+       .meaning = "gap between the lowest grain and the floor at the start"});
+    v("side_gap", s.side_gap,
+      {.unit = "m",
+       .range = not_negative,
+       .used = drop,
+       .unset = "no side walls",
+       .meaning = "gap between the specimen and four side walls"});
     v("ramp", s.ramp,
       {.unit = "s",
        .range = not_negative,
-       .used = brazilian,
-       .unset = "10 D/c0, c0 = sqrt(E/density)",
+       .used = driven,
+       .unset = "10 L/c0, c0 = sqrt(E/density), L the length (brazilian: D; bending: L^2/w)",
        .meaning = "time over which the speed rises smoothly from 0"});
     v.table("stop", s.stop, {.meaning = "when the run ends, whichever comes first"});
 }

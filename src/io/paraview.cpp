@@ -292,7 +292,7 @@ std::vector<int> active_contacts(const Contacts& contacts)
 {
     std::vector<int> rows;
     for (int i = 0; i < contacts.size(); ++i) {
-        if (contacts.active[i] != 0) rows.push_back(i);
+        if (contacts.active[i] == 1) rows.push_back(i);
     }
     return rows;
 }

@@ -51,7 +51,7 @@ struct MaterialSpec {
     double density = 0.0;        ///< [kg/m^3]
     double young_modulus = 0.0;  ///< [Pa]
     double poisson_ratio = 0.0;  ///< [-]
-    CleavageSpec cleavage;
+    CleavageSpec cleavage{};
 };
 
 struct RegionSpec {
@@ -164,15 +164,28 @@ struct StopSpec {
     std::optional<double> load_drop;  ///< share of the peak load [-]
     std::optional<double> strain;     ///< platen displacement over specimen size [-]
     std::optional<double> time;       ///< [s]
+    std::optional<double> rest;       ///< drop: kinetic energy over m g h [-]
 };
 struct TestSpec {
-    std::string kind = "custom";               ///< brazilian | custom
-    double platen_speed = 0.0;                 ///< closing speed of the two platens together [m/s]
-    std::string platen = "flat";               ///< flat | curved
+    /// brazilian | uniaxial_compression | uniaxial_tension | three_point_bending | four_point_bending | notched_beam |
+    /// dcb | drop | custom
+    std::string kind = "custom";
+    double platen_speed = 0.0;                 ///< closing (tension: opening) speed of both sides together [m/s]
+    std::string platen = "flat";               ///< brazilian: flat | curved
     double platen_radius = 0.0;                ///< curved; 0: 1.5 specimen radii (ISRM) [m]
     std::optional<double> contact_half_width;  ///< flat: half width of the platen [m]; auto: 0.05 of the diameter
-    std::string direction = "y";               ///< loading axis: x | y
-    std::optional<double> ramp;                ///< [s]; auto: 10 D/c0
+    std::string direction = "y";               ///< loading axis: x | y | z
+    std::string ends = "platens";              ///< uniaxial_compression: platens | gripped
+    std::optional<double> grip_length;         ///< [m]; auto: one row of grains
+    std::optional<double> wall_friction;       ///< [-]; auto: platens of uniaxial_compression 0, rollers 0.1
+    double outer_span = 0.0;                   ///< between the supports [m]
+    double inner_span = 0.0;                   ///< between the loading rollers; notched_beam: 0: one roller [m]
+    std::optional<double> roller_radius;       ///< [m]; auto: half of the beam's height
+    double notch_depth = 0.0;                  ///< notched_beam [m]
+    double crack_length = 0.0;                 ///< dcb [m]
+    double drop_height = 0.0;                  ///< [m]
+    std::optional<double> side_gap;            ///< drop: from specimen to side walls [m]; auto: no side walls
+    std::optional<double> ramp;                ///< [s]; auto: 10 L/c0
     StopSpec stop;
 };
 

@@ -19,8 +19,11 @@ struct ContactPoint {
     double overlap_energy = 0.0;  ///< U [m^4]
     double area = 0.0;            ///< of a uniform pressure with this force and energy; A_ref for points [m^2]
     double twist_radius = 0.0;    ///< radius of the circle as large as the pressed faces; 0 for points and lines [m]
-    double depth = 0.0;           ///< largest penetration [m]
+    double depth = 0.0;           ///< largest penetration; or held_by_bonds [m]
 };
+
+/// ContactPoint::depth, and Contacts::active, of a pair whose bonds still act: it has no contact of its own.
+inline constexpr int held_by_bonds = -1;
 
 struct Contacts {
     Buffer<std::int32_t> a, b;  ///< bodies
@@ -30,7 +33,7 @@ struct Contacts {
     Buffer<std::int32_t> bond_count;  ///< how many
     Buffer<ContactPoint> point;       ///< derived
     // state
-    Buffer<std::int32_t> active;     ///< 1 while in contact, after any hand-over
+    Buffer<std::int32_t> active;     ///< 1 while in contact, 0 while apart, or held_by_bonds
     Buffer<Vec3> shear_force;        ///< F_t on a, world frame [N]
     Buffer<Vec3> normal;             ///< of the last evaluation [-]
     Buffer<double> twist_moment;     ///< about the normal, on a [N m]

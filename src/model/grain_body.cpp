@@ -31,7 +31,7 @@ PrincipalFrame set_grain_shape(Model& model, Bodies& b, int i, const Polyhedron&
 
     const Vec3 inertia = density * m.principal_inertia;
     at(b.position, i) = frame.to_space(m.centroid);
-    at(b.orientation, i) = normalized(frame.orientation * m.principal_axes);
+    at(b.orientation, i) = frame.orientation * m.principal_axes;
     at(b.mass, i) = density * m.volume;
     at(b.inverse_mass, i) = 1.0 / (density * m.volume);
     at(b.inertia, i) = inertia;

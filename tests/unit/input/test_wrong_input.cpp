@@ -23,6 +23,22 @@ struct Wrong {
 const char* const B = brazilian_input;
 const char* const C = custom_input;
 
+/// A bar without bonds, and the test of `lines`, which begin in line 15.
+std::string bar(const std::string& lines)
+{
+    const std::string custom = custom_input;
+    return custom.substr(0, custom.find("[[walls]]")) + "\n[test]\n" + lines;
+}
+const std::string uniaxial_input =
+    bar("kind = \"uniaxial_compression\"\nplaten_speed = 1\nwall_friction = 0.1\nstop = { strain = 0.01 }\n");
+const std::string four_point_input =
+    bar("kind = \"four_point_bending\"\nplaten_speed = 1\nouter_span = \"16 mm\"\ninner_span = \"8 mm\"\nstop = { time "
+        "= 1 }\n");
+const std::string drop_input = bar("kind = \"drop\"\ndrop_height = \"5 mm\"\nstop = { rest = 0.01 }\n");
+const char* const U = uniaxial_input.c_str();
+const char* const F = four_point_input.c_str();
+const char* const D = drop_input.c_str();
+
 const Wrong wrong_values[] = {
     // ranges, units, types of a quantity
     {B, "\"3100 kg/m^3\"", "\"-3100 kg/m^3\"",
@@ -110,7 +126,8 @@ const Wrong wrong_values[] = {
     {B, "[[parts]]", "[parts]", "error: FILE:10: parts: is a table; must be an array of tables, [[parts]]\n"},
     {B, "[output]\nevery = \"10 us\"", "output = 3",
      "error: FILE:33: test.output = 3: unknown key; known here: kind, platen_speed, platen, platen_radius, "
-     "contact_half_width, direction, ramp, stop\n"},
+     "contact_half_width, direction, ends, grip_length, wall_friction, outer_span, inner_span, roller_radius, "
+     "notch_depth, crack_length, drop_height, side_gap, ramp, stop\n"},
     {B, "stop = { load_drop = 0.5 }", "stop = 3", "error: FILE:31: test.stop = 3: is an integer; must be a table\n"},
     // names
     {B, "material = \"sic\"", "material = \"sci\"",
@@ -167,8 +184,9 @@ const Wrong wrong_values[] = {
     {B, "side =", "orientation = { choices = [] }\nside =",
      "error: FILE:13: parts[0].orientation.choices = []: is empty; must be an array such as [\"1 rad\", \"1 rad\"]\n"},
     {B, "platen_speed = \"20 mm/s\"\n", "",
-     "error: FILE:28: test.platen_speed: missing; required with kind = \"brazilian\": a quantity > 0 m/s such as \"1 "
-     "m/s\"\n"},
+     "error: FILE:28: test.platen_speed: missing; required with any kind but \"custom\" and \"drop\": a quantity > 0 "
+     "m/s "
+     "such as \"1 m/s\"\n"},
     {B, "height = \"5 mm\"", "height = \"5 mm\", axis = \"x\"",
      "error: FILE:15: parts[0].region.axis = \"x\": must be \"z\" in a brazilian test\n"},
     {B, "{ shape = \"disc\", diameter = \"15 mm\", height = \"5 mm\" }", "{ shape = \"box\", size = [1, 1, 1] }",
@@ -187,13 +205,63 @@ const Wrong wrong_values[] = {
      "error: FILE:17: stages[0]: never ends; required: at least one of duration, unbalanced_force_ratio, load_drop, "
      "max_displacement, or test.stop.time\n"},
     {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[test]\nplaten_speed = 1",
-     "error: FILE:22: test.platen_speed = 1: has no meaning here; it goes with kind = \"brazilian\"\n"},
+     "error: FILE:22: test.platen_speed = 1: has no meaning here; it goes with any kind but \"custom\" and "
+     "\"drop\"\n"},
     {C, "name = \"top\"", "name = \"top\"\nnormal = [0, 0, 0]",
      "error: FILE:15: walls[0].normal = [0, 0, 0]: must not be zero\n"},
     {C, "size = [0.01, 0.01]", "shape = \"sphere\"",
      "error: FILE:13: walls[0].radius: missing; required with shape = \"cylinder\" or \"sphere\": a quantity > 0 m "
      "such as \"1 m\"\n"},
     {C, "velocity = [0, \"-20 mm/s\", 0]", "velocity = [0, 0, 0]", ""},
+    // ready-made tests; U, F, D: see above
+    {U, "uniaxial_compression", "uniaxial_tension",
+     "error: FILE:17: test.wall_friction = 0.1: has no meaning here; it goes with kind = \"uniaxial_compression\" "
+     "(platens) or bending\n"},
+    {U, "wall_friction = 0.1", "grip_length = \"1 mm\"",
+     "error: FILE:17: test.grip_length = \"1 mm\": has no meaning here; it goes with kind = \"uniaxial_tension\" or "
+     "\"dcb\", or ends = \"gripped\"\n"},
+    {U, "wall_friction = 0.1", "wall_friction = -0.1", "error: FILE:17: test.wall_friction = -0.1: must be >= 0\n"},
+    {U, "wall_friction = 0.1", "ends = \"glued\"",
+     "error: FILE:17: test.ends = \"glued\": must be one of \"platens\", \"gripped\"\n"},
+    {U, "stop = { strain = 0.01 }", "stop = { rest = 0.01 }",
+     "error: FILE:18: test.stop = { rest = 0.01 }: the run would never end; required: at least one of load_drop, "
+     "strain, time\n"
+     "error: FILE:18: test.stop.rest = 0.01: has no meaning here; it goes with kind = \"drop\"\n"},
+    {U, "[test]", "[[walls]]\nname = \"platen_top\"\nsize = [1, 1]\n[test]",
+     "error: FILE:15: walls[0].name = \"platen_top\": this name belongs to the walls of the uniaxial_compression "
+     "test\n"},
+    {F, "inner_span = \"8 mm\"", "inner_span = \"16 mm\"",
+     "error: FILE:18: test.inner_span = \"16 mm\": must be < 0.016 m, the outer span\n"},
+    {F, "inner_span = \"8 mm\"", "inner_span = 0",
+     "error: FILE:18: test.inner_span = 0: must be > 0 m; one loading roller is kind = \"three_point_bending\"\n"},
+    {F, "inner_span = \"8 mm\"\n", "",
+     "error: FILE:14: test.inner_span: missing; required with kind = \"four_point_bending\": a quantity >= 0 m such as "
+     "\"1 m\"\n"},
+    {F, "outer_span = \"16 mm\"\n", "",
+     "error: FILE:14: test.outer_span: missing; required with kind = \"three_point_bending\", \"four_point_bending\" "
+     "or "
+     "\"notched_beam\": a quantity > 0 m such as \"1 m\"\n"},
+    {F, "inner_span = \"8 mm\"", "inner_span = \"8 mm\"\nroller_radius = 0",
+     "error: FILE:19: test.roller_radius = 0: must be > 0 m\n"},
+    {F, "inner_span = \"8 mm\"", "inner_span = \"8 mm\"\nnotch_depth = \"1 mm\"",
+     "error: FILE:19: test.notch_depth = \"1 mm\": has no meaning here; it goes with kind = \"notched_beam\"\n"},
+    {F, "\"four_point_bending\"", "\"notched_beam\"",
+     "error: FILE:14: test.notch_depth: missing; required with kind = \"notched_beam\": a quantity > 0 m such as \"1 "
+     "m\"\n"},
+    {D, "drop_height = \"5 mm\"", "drop_height = \"-5 mm\"",
+     "error: FILE:16: test.drop_height = \"-5 mm\": must be >= 0 m\n"},
+    {D, "drop_height = \"5 mm\"\n", "",
+     "error: FILE:14: test.drop_height: missing; required with kind = \"drop\": a quantity >= 0 m such as \"1 m\"\n"},
+    {D, "drop_height = \"5 mm\"", "drop_height = \"5 mm\"\nside_gap = -1",
+     "error: FILE:17: test.side_gap = -1: must be >= 0 m\n"},
+    {D, "rest = 0.01", "load_drop = 0.5",
+     "error: FILE:17: test.stop = { load_drop = 0.5 }: the run would never end; required: at least one of time, rest\n"
+     "error: FILE:17: test.stop.load_drop = 0.5: has no meaning in a drop test; use time or rest\n"},
+    {D, "[test]", "[control]\ngravity = [0, 1, 1]\n[test]",
+     "error: FILE:15: control.gravity = [0, 1, 1]: must point along an axis in a drop test; left out it is 9.81 m/s^2 "
+     "along -z\n"},
+    {D, "\"drop\"\ndrop_height = \"5 mm\"\nstop = { rest = 0.01 }", "\"dcb\"\nplaten_speed = 1\nstop = { time = 1 }",
+     "error: FILE:14: test.crack_length: missing; required with kind = \"dcb\": a quantity > 0 m such as \"1 m\"\n"},
     // TOML itself
     {B, "seed = 7", "seed = ", "error: FILE:3: "},
     {B, "seed = 7", "title = \"again\"", "error: FILE:3: "},
@@ -220,6 +288,7 @@ TEST_CASE("the files that are spoiled are good", "[input]")
 {
     CHECK(problems_of(brazilian_input) == "");
     CHECK(problems_of(custom_input) == "");
+    for (const char* const input : {U, F, D}) CHECK(problems_of(input) == "");
 }
 
 TEST_CASE("wrong values are reported with file, line, key, value and what is allowed", "[input]")
@@ -253,8 +322,9 @@ TEST_CASE("five mistakes are reported together, in the order of the file", "[inp
           "error: FILE:15: parts[0].region.diameter = \"15 kg\": is a mass; expected a length, e.g. \"1 m\"\n"
           "error: FILE:17: bonds[0].cohesion: missing; required with failure = \"point\" or \"face\": a quantity > 0 "
           "Pa such as \"1 Pa\"\n"
-          "error: FILE:28: test.kind = \"brasilian\": must be one of \"brazilian\", \"custom\"; did you mean "
-          "\"brazilian\"?\n");
+          "error: FILE:28: test.kind = \"brasilian\": must be one of \"brazilian\", "
+          "\"uniaxial_compression\", \"uniaxial_tension\", \"three_point_bending\", \"four_point_bending\", "
+          "\"notched_beam\", \"dcb\", \"drop\", \"custom\"; did you mean \"brazilian\"?\n");
 }
 
 TEST_CASE("wrong values of the command line", "[input]")

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the ready-made tests share: the specimen's measures, grips, the loading stage, numbers read off the load curve.
+#pragma once
+
+#include "experiment/experiment.h"
+
+#include <string>
+#include <vector>
+
+namespace grainfrac {
+
+/// 0, 1, 2 of "x", "y", "z".
+int axis_of(const std::string& name);
+Vec3 axis_vector(int axis);
+
+/// Box around the sharp grains.
+struct Extent {
+    Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};  ///< [m]
+    Vec3 size() const { return high - low; }
+    Vec3 center() const { return 0.5 * (low + high); }
+};
+Extent specimen_extent(const Model& model, const State& state);
+
+/// Mean section across an axis, away from the ends: sum of V_i sin^2(pi s_i) over L/2, s_i the grain's place along the
+/// axis, 0 to 1. The weight is smooth and vanishes with its slope at the ends, so that ragged ends do not count and a
+/// lattice gives its true section: 4 sqrt(3) r t for 4 columns of hexagons [m^2].
+double mean_section(const Model& model, const State& state, int axis);
+
+/// Free grains whose centre is within `length` of the specimen's end at the side `sign` of an axis become bodies of the
+/// wall: they move as it does and do not turn, while their bonds hold on to the rest. Returns how many.
+/// `half`: only those above (side 1) or below (-1) a plane.
+struct HalfSpace {
+    int axis = 0, side = 0;  ///< side 0: all
+    double place = 0.0;      ///< [m]
+};
+int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length, const HalfSpace& half = {});
+
+/// Mean position along an axis of a wall's bodies [m].
+double mean_position(const State& state, int wall, int axis);
+
+/// Wave speed, the stage "load", in which the loaded and the opposite wall each move at half of test.platen_speed, and
+/// a guess of how long it takes. Unless test.ramp says otherwise the speed rises over 10 `ramp_length`/c_0.
+void set_loading_stage(const Case& c, const Model& model, double ramp_length, Experiment& e);
+
+/// Slope of nominal stress over nominal strain between 10 % and 40 % of the peak; 0 if the curve has no such points
+/// [Pa].
+double secant_modulus(const std::vector<CurvePoint>& curve);
+
+}  // namespace grainfrac
