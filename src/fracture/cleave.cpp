@@ -91,14 +91,26 @@ LoadedGrain loaded_grain(const Model& model, const State& state, int body)
 }
 
 /// A grain that is bent has little stress in the mean: what one of its faces carries lets it through as well.
-bool face_passes(const Model& model, const State& state, int body, const CleavageGate& gate)
+bool face_passes(const State& state, int body, const CleavageGate& gate)
 {
     if (gate.kind != CleavageGate::Kind::principal_and_shear) return false;
-    const LoadedGrain grain = loaded_grain(model, state, body);
-    for (const FaceLoad& f : grain.face_loads) {
-        for (int k = 0; k < f.count; ++k) {
-            if (f.traction.normal_stress(f.corners[k]) >= gate.share * gate.tension_threshold ||
-                norm(f.traction.shear_stress(f.corners[k])) >= gate.share * gate.shear_threshold)
+    const InterfaceBonds& f = state.interfaces;
+    const Quat q = state.bodies.orientation[body];
+    const double tension = gate.share * gate.tension_threshold, shear = gate.share * gate.shear_threshold;
+    for (int k = state.incidence.begin[body]; k < state.incidence.begin[body + 1]; ++k) {
+        const int slot = state.incidence.entry[k] / 2;
+        if (slot >= f.size()) break;  // interfaces come first
+        const bool is_a = state.incidence.entry[k] % 2 == 0;
+        const Vec3 force = rotate_back(q, is_a ? -state.slots.force[slot] : state.slots.force[slot]);
+        const Vec3 torque = rotate_back(q, is_a ? state.slots.torque_a[slot] : state.slots.torque_b[slot]);
+        if (norm2(force) + norm2(torque) == 0.0) continue;
+        const Vec3* corners = &(is_a ? state.corners.position_a : state.corners.position_b)[f.corner_begin[slot]];
+        const int count = f.corner_begin[slot + 1] - f.corner_begin[slot];
+        const PlaneMoments m = plane_moments(corners, count);  // its normal points to b
+        const TractionField t = fit_tractions(m, {force, torque - cross(m.centroid, force)});
+        const double outward = is_a ? 1.0 : -1.0;
+        for (int c = 0; c < count; ++c) {
+            if (outward * t.normal_stress(corners[c]) >= tension || norm(t.shear_stress(corners[c])) >= shear)
                 return true;
         }
     }
@@ -151,7 +163,7 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
     std::vector<int> look;
     for (int i = 0; i < state.bodies.size(); ++i) {
         const CleavageRules* r = rules_of(state, i, rules);
-        if (r != nullptr && (r->gate(stress[static_cast<std::size_t>(i)]) || face_passes(model, state, i, r->gate)))
+        if (r != nullptr && (r->gate(stress[static_cast<std::size_t>(i)]) || face_passes(state, i, r->gate)))
             look.push_back(i);
     }
     struct Work {

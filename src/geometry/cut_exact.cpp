@@ -2,6 +2,7 @@
 // The second, independent route for cuts: CGAL classifies the vertices with exact predicates and both halves are convex
 // hulls of their points. (CGAL's halfspace_intersection_3 is not used: it misplaces vertices of plain prisms.)
 #include "geometry/cut.h"
+#include "geometry/mass_properties.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -21,6 +22,9 @@ using Mesh = CGAL::Surface_mesh<Point>;
 
 /// Hull triangles must lie in a known plane within this share of the size, else the cut is reported as degenerate.
 constexpr double coplanar_tolerance = 1e-9;
+
+/// Volumes of the parts of a clean cut add up to this share of the whole.
+constexpr double volume_tolerance = 1e-12;
 
 struct KnownFace {
     Plane plane;
@@ -143,6 +147,13 @@ Polyhedron hull(const std::vector<Vec3>& vertices, const std::vector<KnownFace>&
     return p;
 }
 
+/// Vertices that count as on the plane move by the tolerance; where that shows in the volume the cut is not clean.
+bool volumes_add_up(const Polyhedron& whole, const Polyhedron& a, const Polyhedron& b)
+{
+    const double volume = mass_properties(whole).volume;
+    return std::fabs(mass_properties(a).volume + mass_properties(b).volume - volume) <= volume_tolerance * volume;
+}
+
 }  // namespace
 
 CutResult cut_exact(const Polyhedron& p, const Plane& plane, int tag)
@@ -171,7 +182,8 @@ CutResult cut_exact(const Polyhedron& p, const Plane& plane, int tag)
         known.push_back({keep < 0 ? plane : Plane{-plane.normal, -plane.offset}, tag});
         (keep < 0 ? result.inside : result.outside) = hull(points, known, size);
     }
-    if (why_not_convex(result.inside).empty() && why_not_convex(result.outside).empty()) {
+    const bool closed = why_not_convex(result.inside).empty() && why_not_convex(result.outside).empty();
+    if (closed && volumes_add_up(p, result.inside, result.outside)) {
         result.status = CutStatus::ok;
         result.section = face_polygon(result.inside, static_cast<int>(result.inside.faces.size()) - 1);
     } else {

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 using namespace grainfrac;
+using namespace grainfrac::test;
 
 namespace {
 
@@ -201,4 +202,56 @@ TEST_CASE("eroding a prism leaves the smaller prism", "[cut]")
     const Polyhedron chipped = clip(make_box({2, 2, 2}), {{normalized(Vec3{1, 1, 1}), 1.7}}, 9);
     CHECK(chipped.faces.size() == 7);
     CHECK(erode(chipped, 0.1).faces.size() == 6);
+}
+
+TEST_CASE("a hundred thousand cuts with CGAL: planes through vertices, edges and faces and nearly so among them",
+          "[cut][slow]")
+{
+    std::mt19937_64 random(12);
+    int cut_clean = 0, refused = 0, missed = 0;
+    for (int body = 0; body < 10000; ++body) {
+        const Polyhedron p = convex_polyhedron(random);
+        const double size = bounding_size(p), volume = mass_properties(p).volume;
+        for (int k = 0; k < 10; ++k) {
+            const auto vertex = [&] { return p.vertices[random() % p.vertices.size()]; };
+            Plane plane{unit_vector(random), 0.0};
+            plane.offset = dot(plane.normal, vertex()) * uniform(random, -1.0, 1.0);
+            if (k % 5 == 1) plane.offset = dot(plane.normal, vertex());  // through a vertex
+            if (k % 5 == 2) {  // through three vertices: edges, faces, diagonals
+                const Vec3 a = vertex(), b = vertex(), c = vertex();
+                const Vec3 n = cross(b - a, c - a);
+                if (norm(n) > 1e-6 * size * size) plane = through(a, b, c);
+            }
+            if (k % 5 == 3) {  // a face, and beside it by anything from round-off to a chip
+                const std::size_t f = random() % p.planes.size();
+                plane = p.planes[f];
+                plane.offset -= size * std::pow(10.0, uniform(random, -16.0, -2.0));
+            }
+            if (k % 5 == 4) {  // a face tilted a little about one of its vertices
+                const std::size_t f = random() % p.planes.size();
+                const Vec3 x = p.vertices[static_cast<std::size_t>(p.faces[f][0])];
+                plane.normal =
+                    normalized(p.planes[f].normal + std::pow(10.0, uniform(random, -14.0, -1.0)) * unit_vector(random));
+                plane.offset = dot(plane.normal, x);
+            }
+            const CutResult c = cut_exact(p, plane);
+            if (c.status == CutStatus::all_inside || c.status == CutStatus::all_outside) {
+                ++missed;
+                continue;
+            }
+            if (c.status != CutStatus::ok) {
+                ++refused;
+                continue;
+            }
+            ++cut_clean;
+            const double sum = mass_properties(c.inside).volume + mass_properties(c.outside).volume;
+            if (std::fabs(sum - volume) >= 1e-12 * volume) CHECK(std::fabs(sum - volume) < 1e-12 * volume);
+            const std::string why = why_not_convex(c.inside) + why_not_convex(c.outside);
+            if (!why.empty()) CHECK(why == "");
+        }
+    }
+    CAPTURE(cut_clean, refused, missed);
+    CHECK(cut_clean + refused + missed == 100000);
+    CHECK(refused < 5000);
+    WARN("clean cuts " << cut_clean << ", refused " << refused << ", planes that miss " << missed);
 }

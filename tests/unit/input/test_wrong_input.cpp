@@ -57,6 +57,31 @@ const Wrong wrong_values[] = {
     {B, "\"3100 kg/m^3\"", "1979-05-27",
      "error: FILE:6: materials.sic.density = 1979-05-27: is a date or time; must be a quantity > 0 kg/m^3 such as \"1 "
      "kg/m^3\"\n"},
+    // cleavage
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-11\"]\ntoughness = \"2 MPa m^0.5\"\nflaw_size = "
+     "\"30 um\"",
+     "error: FILE:10: materials.sic.cleavage.planes[0] = \"{10-11\": \"{10-11\" is no crystal plane: it stands neither "
+     "in {} nor in (); expected Miller-Bravais indices, e.g. \"{10-10}\" or \"(0001)\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa\"\nflaw_size = \"30 "
+     "um\"",
+     "error: FILE:11: materials.sic.cleavage.toughness = \"2 MPa\": is a stress; expected a stress intensity, e.g. \"1 "
+     "Pa m^0.5\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa m^0.5\"\nflaw_size = "
+     "\"30 um\"\ncriterion = \"elipse\"",
+     "error: FILE:13: materials.sic.cleavage.criterion = \"elipse\": must be one of \"ellipse\", \"shetty\", "
+     "\"energy\"; did you mean \"ellipse\"?\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa m^0.5\"\nflaw_size = "
+     "\"30 um\"\nhydrostatic_threshold = 1",
+     "error: FILE:13: materials.sic.cleavage.hydrostatic_threshold = 1: has no meaning here; it goes with gate = "
+     "\"hydrostatic\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa m^0.5\"\nflaw_size = "
+     "\"30 um\"\nmax_generation = -1",
+     "error: FILE:13: materials.sic.cleavage.max_generation = -1: must be >= 0 and <= 20\n"},
     {B, "\"0.6 mm\"", "\"0.6 kg\"",
      "error: FILE:13: parts[0].side = \"0.6 kg\": is a mass; expected a length, e.g. \"1 m\"\n"},
     {B, "\"0.6 mm\"", "\"0.6\"",
