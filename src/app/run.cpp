@@ -53,7 +53,9 @@ void warn_about_loading(const Built& b, const RunRecord& record)
     const double by_contacts = e.inserted - record.split_energy;
     if (std::fabs(by_contacts) > 1e-3 * scale) {
         spdlog::warn(
-            "contacts that took over from broken bonds stored {:.2g} of the largest energy more than the bonds did",
+            "contacts that took over from bonds, or were shared out when a grain split, stored {:.2g} of the largest "
+            "energy "
+            "more than what was there before",
             by_contacts / scale);
     }
     if (e.relative_error() > 1e-3) {
