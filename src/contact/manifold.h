@@ -62,8 +62,8 @@ constexpr double same_edge = 1e-9;
 
 /// The faces of a body that may be in contact: those that look along `direction` and are at its closest point.
 struct FacingFaces {
-    static constexpr int room = 8;
-    int face[room];  // into the shape table
+    static constexpr int room = 32;  // a rounded rim of many facets has a dozen or two within the reach of one point
+    int face[room];                  // into the shape table
     int count = 0;
 };
 

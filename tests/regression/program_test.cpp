@@ -132,6 +132,17 @@ TEST_CASE("wrong use: exit 2, a message, nothing written")
             "tensile_strength^2/(2 k_n)");  // only building can tell
     refused(example + " --set control.time_step='\"1 ms\"'", "stability limit");
     refused("info no_such_folder", "no_such_folder");
+    {  // a wall within the part
+        std::ofstream(w.folder / "overlap.toml")
+            << "[materials.sic]\ndensity = 3100\nyoung_modulus = 4e11\n"
+               "poisson_ratio = 0.2\n[[parts]]\nname = \"bar\"\nmaterial = \"sic\"\n"
+               "side = \"0.6 mm\"\nthickness = \"1 mm\"\nregion = { shape = \"box\", "
+               "size = [\"4 mm\", \"4 mm\", \"1 mm\"] }\n[[walls]]\nname = \"top\"\n"
+               "center = [0, \"0.5 mm\", 0]\nnormal = [0, -1, 0]\nsize = [\"9 mm\", "
+               "\"9 mm\"]\n[[stages]]\nname = \"press\"\nduration = 1\n";
+        refused("overlap.toml", "overlap.toml:11: walls[0]: grain");
+        refused("check overlap.toml", "wall \"top\" overlap at the start");
+    }
 }
 
 TEST_CASE("an existing result folder is refused and left alone, --force replaces it")

@@ -20,6 +20,9 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 using namespace grainfrac;
@@ -269,3 +272,37 @@ TEST_CASE("the series enter each frame with its time", "[output][paraview]")
     }
 }
 #endif
+
+TEST_CASE("VTK's readers load every file that a run leaves, and every series names files that there are")
+{
+    const sample::TemporaryFolder folder;
+    const std::string command =
+        "'" GF_PROGRAM "' run '" GF_SOURCE_DIR
+        "/examples/brazilian/brazilian.toml' -q --no-report --threads 1 --out '" +
+        (folder / "run").string() +
+        "' --set parts.disc.side='\"1.2 mm\"' --set test.platen_speed='\"200 mm/s\"' --set "
+        "bonds[0].tensile_strength='\"60 MPa\"' --set bonds[0].cohesion='\"150 MPa\"' > /dev/null 2>&1";
+    REQUIRE(std::system(command.c_str()) == 0);
+    int grids = 0, surfaces = 0, named = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "run/paraview")) {
+        const std::string extension = entry.path().extension().string();
+        if (extension == ".vtu") {
+            CHECK(read_grid(entry.path())->GetNumberOfCells() > 0);
+            ++grids;
+        } else if (extension == ".vtp") {
+            CHECK(read_surface(entry.path()) != nullptr);
+            ++surfaces;
+        } else if (extension == ".pvd") {
+            std::ifstream in(entry.path());
+            const std::string text((std::istreambuf_iterator<char>(in)), {});
+            for (std::size_t at = text.find("file=\""); at != std::string::npos; at = text.find("file=\"", at + 6)) {
+                const std::string name = text.substr(at + 6, text.find('"', at + 6) - at - 6);
+                CHECK(std::filesystem::exists(folder / "run/paraview" / name));
+                ++named;
+            }
+        }
+    }
+    CHECK(grids >= 4);
+    CHECK(surfaces >= 8);
+    CHECK(named >= grids + surfaces);
+}
