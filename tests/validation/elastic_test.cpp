@@ -199,7 +199,7 @@ TEST_CASE("homogeneous strain of a Voronoi tiling is exact with k_n = k_s = E/h"
         ++inside;
         const Mat3 mean = (0.5 / size) * (stress[0][i] - stress[1][i]);
         for (int r = 0; r < 3; ++r) {
-            for (int c = 0; c < 3; ++c) CHECK(std::fabs(mean[r][c] - E * e[r][c]) < 1e-11 * E);
+            for (int c = 0; c < 3; ++c) CHECK(std::fabs(mean[r][c] - E * e[r][c]) < 1e-12 * E);
         }
     }
     CHECK(inside > 5);
