@@ -47,14 +47,13 @@ LoadedGrain loaded_grain(const Model& model, const State& state, int body)
     g.faces = {shape.vertices.data(), g.loop_begin.data(), g.loops.data(), static_cast<int>(shape.faces.size())};
     g.size = bounding_size(shape);
 
-    const Vec3 I = b.inertia[body], w = turned(b.angular_velocity[body]);
-    const Vec3 L{I.x * w.x, I.y * w.y, I.z * w.z}, t = turned(b.torque[body]) - cross(w, L);
+    const Vec3 w = turned(b.angular_velocity[body]);
     const std::size_t material =
         static_cast<std::size_t>(model.groups[static_cast<std::size_t>(b.group[body])].material);
     g.motion.density = model.materials[material].density;
     g.motion.acceleration = turned(b.force[body]) * b.inverse_mass[body];
     g.motion.angular_velocity = w;
-    g.motion.angular_acceleration = {t.x / I.x, t.y / I.y, t.z / I.z};
+    g.motion.angular_acceleration = angular_acceleration(b.inertia[body], w, turned(b.torque[body]));
     g.motion.body_force = turned(model.gravity);
 
     const int begin = state.incidence.begin[body], end = state.incidence.begin[body + 1];
@@ -212,27 +211,6 @@ std::vector<SplitRequest> splits_due(const State& state, const std::vector<Grain
         due.push_back(request);
     }
     return due;
-}
-
-GrainSection section_tractions(const Model& model, const State& state, int body, const Plane& plane)
-{
-    LoadedGrain grain = loaded_grain(model, state, body);
-    const Placement place = placement(state.bodies, body);
-    const Vec3 n = rotate_back(place.orientation, plane.normal);
-    const PlaneCut cut = cut_by_plane(grain.faces, {n, plane.offset - dot(plane.normal, place.position)}, grain.size);
-    GrainSection s;
-    s.status = cut.status;
-    if (cut.status != CutStatus::ok) return s;
-    const PlaneTractions t = plane_tractions(cut, grain.motion, grain.loads());
-    for (int k = 0; k < cut.section.count; ++k) s.polygon.push_back(place.to_space(cut.section.corners[k]));
-    const auto in_space = [&](const Vec3& v) { return rotate(place.orientation, v); };
-    s.moments = cut.section.moments;
-    s.moments.centroid = place.to_space(s.moments.centroid);
-    for (Vec3* v : {&s.moments.e1, &s.moments.e2, &s.moments.n}) *v = in_space(*v);
-    s.field = t.field;
-    s.field.centroid = s.moments.centroid;
-    for (Vec3* v : {&s.field.e1, &s.field.e2, &s.field.n, &s.field.mean}) *v = in_space(*v);
-    return s;
 }
 
 }  // namespace grainfrac

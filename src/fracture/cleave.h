@@ -43,13 +43,4 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,
                                      const std::vector<CleavageRules>& rules);
 
-/// Traction across a plane (in space) of one grain, and the polygon; status as cut_by_plane.
-struct GrainSection {
-    CutStatus status = CutStatus::degenerate;
-    std::vector<Vec3> polygon;  ///< in space [m]
-    PlaneMoments moments;       ///< in space
-    TractionField field;        ///< in space
-};
-GrainSection section_tractions(const Model& model, const State& state, int body, const Plane& plane);
-
 }  // namespace grainfrac

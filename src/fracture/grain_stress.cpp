@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fracture/grain_stress.h"
 
+#include "model/grain_body.h"
+
 #include <stdexcept>
 
 namespace grainfrac {
@@ -19,8 +21,7 @@ Mat3 inertia_term(const Bodies& b, int i)
     const Mat3 r = to_matrix(b.orientation[i]);
     const Vec3 I = b.inertia[i], j = b.inverse_inertia[i], L = b.angular_momentum[i];
     const Vec3 w{L.x * j.x, L.y * j.y, L.z * j.z};
-    const Vec3 t = rotate_back(b.orientation[i], b.torque[i]) - cross(w, L);
-    const Vec3 rate{t.x * j.x, t.y * j.y, t.z * j.z};
+    const Vec3 rate = angular_acceleration(I, w, rotate_back(b.orientation[i], b.torque[i]));
     const Mat3 W = Mat3::skew(w);
     const Mat3 A = Mat3::skew(rate) + W * W;
     return r * (Mat3::diagonal(euler_moments(I)) * transpose(A)) * transpose(r);

@@ -7,7 +7,7 @@
 #include "contact/gather.h"
 #include "contact/linear_contact.h"
 #include "fracture/bond_forces.h"
-#include "fracture/traction_field.h"
+#include "fracture/plane_tractions.h"
 #include "geometry/cut.h"
 #include "geometry/mass_properties.h"
 #include "model/grain_body.h"
@@ -25,9 +25,6 @@
 namespace grainfrac {
 
 namespace {
-
-/// Points nearer to the plane than this share of the grain's size go to part 1.
-constexpr double on_plane = 1e-9;
 
 template <class T>
 T& at(Buffer<T>& buffer, int i)
@@ -180,7 +177,7 @@ struct CutSurface {
     std::vector<QuadraturePoint> points;
     std::vector<Vec3> traction;  // at the points, on part 2 [Pa]
     const SplitRules* rules = nullptr;
-    double toughness = 1.0, K_I = 0.0, K_II = 0.0;
+    double K_I = 0.0, K_II = 0.0;
 };
 
 class Interfaces {
@@ -384,7 +381,7 @@ private:
         at(f.normal_damping, n) = 2.0 * r.damping * std::sqrt(r.normal_stiffness * pair_mass / moments.area);
         at(f.shear_damping, n) = 2.0 * r.damping * std::sqrt(r.shear_stiffness * pair_mass / moments.area);
         at(f.strength_factor, n) = 1.0;
-        at(f.toughness_factor, n) = s.toughness;
+        at(f.toughness_factor, n) = 1.0;
         at(f.opening_limit, n) = model_.shapes.radius[b.shape[s.a]] + model_.shapes.radius[b.shape[s.b]];
         at(f.transgranular, n) = 1;
         at(f.K_I, n) = s.K_I;
@@ -426,7 +423,7 @@ private:
             if (onset[k] <= 0.0) continue;
             const double mean = d[0] > 0.0 && open > 0.0 ? sum / open : onset[k];
             at(state_.points.onset, q) = onset[k];
-            at(state_.points.failure, q) = onset[k] + 2.0 * s.toughness * law.fracture_energy(mix[k]) / mean;
+            at(state_.points.failure, q) = onset[k] + 2.0 * law.fracture_energy(mix[k]) / mean;
             at(state_.points.slip, q) = {d[1], d[2]};
         }
         at(f.stored_energy, n) = stored;
@@ -447,8 +444,7 @@ private:
     /// Least width of the rectangle with the polygon's moments, as when bonds are made.
     void set_width(const std::vector<Vec3>& polygon, int n)
     {
-        const PolygonMoments m = polygon_moments(polygon);
-        at(state_.interfaces.diameter, n) = std::sqrt(12.0 * std::min(m.i1, m.i2) / m.area);
+        at(state_.interfaces.diameter, n) = least_width(polygon_moments(polygon));
     }
 
     Model& model_;
@@ -594,10 +590,8 @@ CutSurface cut_surface(const State& state, const Parting& p, const SplitRules& r
     const Vec3 torque = b.torque[one] + b.torque[two] + cross(b.position[one] - c, b.force[one]) +
                         cross(b.position[two] - c, b.force[two]);
     const Quat q = p.before.orientation;
-    const Vec3 w = p.angular_velocity, w_body = rotate_back(q, w), I = p.inertia;
-    const Vec3 L{I.x * w_body.x, I.y * w_body.y, I.z * w_body.z};
-    const Vec3 t = rotate_back(q, torque) - cross(w_body, L);
-    const Vec3 w_rate = rotate(q, {t.x / I.x, t.y / I.y, t.z / I.z});
+    const Vec3 w = p.angular_velocity;
+    const Vec3 w_rate = rotate(q, angular_acceleration(p.inertia, rotate_back(q, w), rotate_back(q, torque)));
 
     const Vec3 r = b.position[one] - c;
     const Vec3 a_1 = force / p.mass + cross(w_rate, r) + cross(w, cross(w, r));
@@ -610,7 +604,6 @@ CutSurface cut_surface(const State& state, const Parting& p, const SplitRules& r
     s.a = two;
     s.b = one;
     s.rules = &rules;
-    s.toughness = p.request.fracture_energy_scale;
     s.K_I = p.request.K_I;
     s.K_II = p.request.K_II;
     s.polygon = p.section;
@@ -682,7 +675,7 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
             p.inertia = b.inertia[r.body];
             p.velocity = b.velocity[r.body];
             p.angular_velocity = b.angular_velocity[r.body];
-            p.on_plane = on_plane * bounding_size(model.grain_shapes[static_cast<std::size_t>(r.body)]);
+            p.on_plane = point_on_plane_tolerance * bounding_size(model.grain_shapes[static_cast<std::size_t>(r.body)]);
             for (const Vec3& x : parts.cut.section) p.section.push_back(p.before.to_space(x));
             report.area = norm(area_vector(p.section));
             partings.push_back(std::move(p));

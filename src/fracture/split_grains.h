@@ -18,7 +18,6 @@ struct SplitRules {
     double shear_stiffness = 0.0;   ///< k_s per area [Pa/m]
     double damping = 0.0;           ///< zeta of the new surface [-]
     QuadratureRule quadrature = QuadratureRule::automatic;
-    double dilation_radius = 0.0;       ///< wanted; reduced where a part is too small for it [m]
     double least_volume = 0.02;         ///< of a part, over the volume of the grain at the start [-]
     double least_inradius = 3.0;        ///< of a part, over the parent's dilation radius [-]
     double least_section = 0.02;        ///< area of the plane over the parent's surface [-]
@@ -29,9 +28,8 @@ struct SplitRules {
 struct SplitRequest {
     std::int32_t body = -1;
     Plane plane;
-    std::int32_t rules = 0;              ///< into the rules that are given
-    double fracture_energy_scale = 1.0;  ///< multiplies the law's fracture energies [-]
-    double K_I = 0.0, K_II = 0.0;        ///< of the flaw, for the results [Pa sqrt(m)]
+    std::int32_t rules = 0;        ///< into the rules that are given
+    double K_I = 0.0, K_II = 0.0;  ///< of the flaw, for the results [Pa sqrt(m)]
 };
 
 enum class SplitStatus {

@@ -179,7 +179,7 @@ private:
             state_.corners.position_b.host().push_back(in_frame(b, corner));
         }
         // of the rectangle with these moments: a face that is long in one direction has slid off after its short one
-        at(i.diameter, n) = std::sqrt(12.0 * std::min(f.moments.i1, f.moments.i2) / f.moments.area);
+        at(i.diameter, n) = least_width(f.moments);
     }
 
     void parallel(const BondFace& f, const Vec3& center, double radius)

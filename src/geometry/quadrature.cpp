@@ -164,6 +164,11 @@ Vec3 first_direction(const std::vector<Vec3>& polygon, const Vec3& normal)
 
 }  // namespace
 
+double least_width(const PolygonMoments& m)
+{
+    return std::sqrt(12.0 * std::min(m.i1, m.i2) / m.area);
+}
+
 PolygonMoments polygon_moments(const std::vector<Vec3>& polygon)
 {
     PolygonMoments m;

@@ -41,6 +41,8 @@ struct PolygonMoments {
     double i2 = 0.0;    ///< int xi2^2 dA [m^4]
 };
 PolygonMoments polygon_moments(const std::vector<Vec3>& polygon);
+/// Short side of the rectangle with these moments [m].
+double least_width(const PolygonMoments& m);
 
 /// Points and weights of `rule` on the polygon. Throws std::invalid_argument for fewer than three vertices or zero
 /// area.

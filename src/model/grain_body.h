@@ -35,6 +35,14 @@ struct PrincipalFrame {
 PrincipalFrame set_grain_shape(Model& model, Bodies& bodies, int i, const Polyhedron& shape, const Placement& frame,
                                double density, double dilation_radius);
 
+/// Rate of the angular velocity [rad/s^2] by Euler's equations, all in the principal frame: inertia [kg m^2], angular
+/// velocity [rad/s], torque [N m].
+inline Vec3 angular_acceleration(const Vec3& inertia, const Vec3& w, const Vec3& torque)
+{
+    const Vec3 L{inertia.x * w.x, inertia.y * w.y, inertia.z * w.z}, t = torque - cross(w, L);
+    return {t.x / inertia.x, t.y / inertia.y, t.z / inertia.z};
+}
+
 /// Angular momentum and velocity of body i for a spin given in space [rad/s].
 void set_spin(Bodies& bodies, int i, const Vec3& angular_velocity);
 

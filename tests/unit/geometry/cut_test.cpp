@@ -251,7 +251,7 @@ TEST_CASE("a hundred thousand cuts with CGAL: planes through vertices, edges and
         }
     }
     CAPTURE(cut_clean, refused, missed);
-    CHECK(cut_clean + refused + missed == 100000);
-    CHECK(refused < 5000);
+    CHECK(cut_clean > 80000);
+    CHECK(refused <= 10);
     WARN("clean cuts " << cut_clean << ", refused " << refused << ", planes that miss " << missed);
 }
