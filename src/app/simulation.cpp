@@ -201,9 +201,7 @@ private:
         const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
         bool split = false;
         if (!due.empty()) {
-            std::vector<SplitRules> rules;
-            for (const CleavageRules& r : cleavage_) rules.push_back(r.split);
-            for (const SplitReport& r : split_grains(model_, state_, due, rules)) {
+            for (const SplitReport& r : split_grains(model_, state_, due)) {
                 if (r.status == SplitStatus::done) {
                     split = true;
                     ++record_.splits;
