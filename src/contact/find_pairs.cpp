@@ -66,15 +66,17 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes
     std::vector<double> sorted = widths;
     std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
     const double limit = large_body * sorted[static_cast<std::size_t>(n / 2)];
-    double cell = 0.0;
-    for (const double w : widths) {
-        if (w <= limit) cell = std::max(cell, w);
+    Vec3 cell;  // as wide as the widest along each axis: columns of grains are long along one only
+    for (int i = 0; i < n; ++i) {
+        const Box& b = boxes[static_cast<std::size_t>(i)];
+        for (int k = 0; k < 3 && widths[static_cast<std::size_t>(i)] <= limit; ++k)
+            cell[k] = std::max(cell[k], b.high[k] - b.low[k]);
     }
     const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
         return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^
                static_cast<std::uint64_t>(z * 83492791LL);
     };
-    const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
+    const auto cell_of = [&](const Vec3& x, int k) { return static_cast<std::int64_t>(std::floor(x[k] / cell[k])); };
     std::unordered_map<std::uint64_t, std::vector<int>> grid;
     for (int i = 0; i < n; ++i) {
         const Box& b = boxes[static_cast<std::size_t>(i)];
@@ -87,7 +89,7 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes
             continue;
         }
         const Vec3 c = 0.5 * (b.low + b.high);
-        const std::int64_t x = cell_of(c.x), y = cell_of(c.y), z = cell_of(c.z);
+        const std::int64_t x = cell_of(c, 0), y = cell_of(c, 1), z = cell_of(c, 2);
         for (std::int64_t dx = -1; dx <= 1; ++dx) {
             for (std::int64_t dy = -1; dy <= 1; ++dy) {
                 for (std::int64_t dz = -1; dz <= 1; ++dz) {

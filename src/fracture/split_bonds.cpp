@@ -79,112 +79,85 @@ public:
         return pieces;
     }
 
-    /// The arrays with pieces and surfaces in the places that their pairs have in the order; only what lies between the
-    /// first and the last of them is made anew, the rest moves along.
+    /// The arrays with pieces and surfaces in the places that their pairs have in the order.
     std::vector<int> rebuild(const std::vector<Piece>& pieces, std::vector<CutSurface>& surfaces)
     {
         InterfaceBonds& f = state_.interfaces;
         struct Entry {
             int a, b, order;
-            int source = -1;
             const Piece* piece = nullptr;
             CutSurface* surface = nullptr;
         };
-        const auto before = [](const Entry& x, const Entry& y) {
-            return std::tie(x.a, x.b, x.order) < std::tie(y.a, y.b, y.order);
-        };
         std::vector<Entry> fresh;
+        std::vector<char> divided(static_cast<std::size_t>(f.size()), 0);
         for (const Piece& p : pieces) {
             const auto [low, high] = std::minmax(p.a, p.b);
-            fresh.push_back({low, high, p.source, p.source, &p, nullptr});
+            fresh.push_back({low, high, p.source, &p, nullptr});
+            divided[static_cast<std::size_t>(p.source)] = 1;
         }
-        for (CutSurface& s : surfaces) fresh.push_back({s.a, s.b, f.size(), -1, nullptr, &s});
+        for (CutSurface& s : surfaces) fresh.push_back({s.a, s.b, f.size(), nullptr, &s});
+        std::stable_sort(fresh.begin(), fresh.end(), [](const Entry& x, const Entry& y) {
+            return std::tie(x.a, x.b, x.order) < std::tie(y.a, y.b, y.order);
+        });
 
-        if (fresh.empty()) {
-            std::vector<int> same(static_cast<std::size_t>(f.size()));
-            std::iota(same.begin(), same.end(), 0);
-            return same;
-        }
-        std::vector<char> divided(static_cast<std::size_t>(f.size()), 0);
-        for (const Piece& p : pieces) divided[static_cast<std::size_t>(p.source)] = 1;
-        std::vector<Entry> all;
-        for (int i = 0; i < f.size(); ++i) all.push_back({f.a[i], f.b[i], i, i, nullptr, nullptr});
-        int first = 0, last = f.size();  // of the old interfaces, what is made anew
-        if (std::is_sorted(all.begin(), all.end(), before)) {
-            first = f.size();
-            last = 0;
-            const auto include = [&](int from, int to) {
-                first = std::min(first, from);
-                last = std::max(last, to);
-            };
-            for (const Entry& e : fresh) {
-                const int place = static_cast<int>(std::lower_bound(all.begin(), all.end(), e, before) - all.begin());
-                include(place, place);
-                if (e.source >= 0) include(e.source, e.source + 1);
-            }
-        }
-        std::vector<Entry> entries;
-        for (int i = first; i < last; ++i) {
-            if (divided[static_cast<std::size_t>(i)] == 0) entries.push_back(all[static_cast<std::size_t>(i)]);
-        }
-        entries.insert(entries.end(), fresh.begin(), fresh.end());
-        std::stable_sort(entries.begin(), entries.end(), before);
-
-        for (Buffer<std::int32_t>* begin : {&f.point_begin, &f.corner_begin}) {
-            if (begin->empty()) begin->assign(1, 0);  // never had a bond
-        }
-        const int first_point = f.point_begin[first], last_point = f.point_begin[last];
-        const int first_corner = f.corner_begin[first], last_corner = f.corner_begin[last];
-        std::vector<int> sources, points, corners, point_begin{first_point}, corner_begin{first_corner};
-        for (const Entry& e : entries) {
-            sources.push_back(e.source);
-            if (e.piece != nullptr) {
-                points.insert(points.end(), e.piece->points.begin(), e.piece->points.end());
-                corners.insert(corners.end(), e.piece->corners.size(), -1);
-            } else if (e.surface != nullptr) {
-                points.insert(points.end(), e.surface->points.size(), -1);
-                corners.insert(corners.end(), e.surface->polygon.size(), -1);
-            } else {
-                for (int q = f.point_begin[e.source]; q < f.point_begin[e.source + 1]; ++q) points.push_back(q);
-                for (int c = f.corner_begin[e.source]; c < f.corner_begin[e.source + 1]; ++c) corners.push_back(c);
-            }
-            point_begin.push_back(first_point + static_cast<int>(points.size()));
-            corner_begin.push_back(first_corner + static_cast<int>(corners.size()));
-        }
-
-        old_ = slice(f, first, last);
-        old_points_ = slice(state_.points, first_point, last_point);
-        first_ = first;
-        first_point_ = first_point;
-        std::vector<std::int32_t> later_points, later_corners;
-        for (int i = last + 1; i <= static_cast<int>(all.size()); ++i) {
-            later_points.push_back(f.point_begin[i] - last_point + point_begin.back());
-            later_corners.push_back(f.corner_begin[i] - last_corner + corner_begin.back());
-        }
-        replace(f, first, last, sources);
-        replace(state_.points, first_point, last_point, points);
-        replace(state_.corners, first_corner, last_corner, corners);
-        const auto put = [first](Buffer<std::int32_t>& begin, const std::vector<int>& window,
-                                 const std::vector<std::int32_t>& later) {
-            auto& b = begin.host();
-            b.resize(static_cast<std::size_t>(first));
-            b.insert(b.end(), window.begin(), window.end());
-            b.insert(b.end(), later.begin(), later.end());
+        Rearrangement interfaces, points, corners;
+        std::vector<int> was;
+        std::vector<std::int32_t> point_begin{0}, corner_begin{0};
+        const auto close = [&](int source) {
+            was.push_back(source);
+            point_begin.push_back(points.size);
+            corner_begin.push_back(corners.size);
         };
-        put(f.point_begin, point_begin, later_points);
-        put(f.corner_begin, corner_begin, later_corners);
+        const auto put = [&](const Entry& e) {
+            interfaces.put(e.piece != nullptr ? e.piece->source : -1);
+            if (e.piece != nullptr) {
+                for (const int q : e.piece->points) points.put(q);
+            } else {
+                for (std::size_t k = 0; k < e.surface->points.size(); ++k) points.put(-1);
+            }
+            const std::size_t sides = e.piece != nullptr ? e.piece->corners.size() : e.surface->polygon.size();
+            for (std::size_t k = 0; k < sides; ++k) corners.put(-1);
+            close(-1);
+        };
+        std::vector<int> places;
+        auto next = fresh.begin();
+        for (int i = 0; i <= f.size(); ++i) {
+            const auto comes_first = [&](const Entry& e) {
+                return i == f.size() || std::tie(e.a, e.b) < std::tie(f.a[i], f.b[i]);
+            };
+            for (; next != fresh.end() && comes_first(*next); ++next) {
+                places.push_back(interfaces.size);
+                put(*next);
+            }
+            if (i == f.size() || divided[static_cast<std::size_t>(i)] != 0) continue;
+            interfaces.keep(i, 1);
+            points.keep(f.point_begin[i], f.point_begin[i + 1] - f.point_begin[i]);
+            corners.keep(f.corner_begin[i], f.corner_begin[i + 1] - f.corner_begin[i]);
+            close(i);
+        }
 
-        std::vector<int> was(static_cast<std::size_t>(f.size()));
-        const int end = first + static_cast<int>(entries.size());
-        for (int n = 0; n < f.size(); ++n) was[static_cast<std::size_t>(n)] = n < first ? n : n - end + last;
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-            const Entry& e = entries[k];
-            const int n = first + static_cast<int>(k);
-            was[static_cast<std::size_t>(n)] = e.piece != nullptr ? -1 : e.source;
-            if (e.piece != nullptr) fill(*e.piece, n, point_begin[k], corner_begin[k]);
-            if (e.surface != nullptr) {
-                e.surface->interface = n;
-                fill(*e.surface, n, point_begin[k], corner_begin[k]);
+        std::vector<int> sources, source_points;  // of the pieces
+        for (const Entry& e : fresh) {
+            if (e.piece == nullptr) continue;
+            sources.push_back(e.piece->source);
+            source_points.insert(source_points.end(), e.piece->points.begin(), e.piece->points.end());
+        }
+        const InterfaceBonds old = gathered(f, sources);
+        const InterfacePoints old_points = gathered(state_.points, source_points);
+        rearrange(f, interfaces);
+        rearrange(state_.points, points);
+        rearrange(state_.corners, corners);
+        f.point_begin.host() = point_begin;
+        f.corner_begin.host() = corner_begin;
+        int piece = 0, point = 0;
+        for (std::size_t k = 0; k < fresh.size(); ++k) {
+            const auto n = static_cast<std::size_t>(places[k]);
+            if (fresh[k].piece != nullptr) {
+                fill(*fresh[k].piece, places[k], point_begin[n], corner_begin[n], old, piece++, old_points, point);
+                point += static_cast<int>(fresh[k].piece->points.size());
+            } else {
+                fresh[k].surface->interface = places[k];
+                fill(*fresh[k].surface, places[k], point_begin[n], corner_begin[n]);
             }
         }
         return was;
@@ -211,13 +184,12 @@ private:
         return p;
     }
 
-    /// Interface n from a piece: its share of what the source held, everything in the frames of its bodies.
-    void fill(const Piece& p, int n, int first_point, int first_corner)
+    /// Interface n from a piece: its share of what its source, old[i], held, everything in the frames of its bodies.
+    void fill(const Piece& p, int n, int first_point, int first_corner, const InterfaceBonds& old, int i,
+              const InterfacePoints& old_points, int first_old_point)
     {
         InterfaceBonds& f = state_.interfaces;
         const Bodies& b = state_.bodies;
-        const int i = p.source - first_;
-        const InterfaceBonds& old = old_;
         const bool flipped = p.a > p.b;  // the pair is named by its lower index first
         const int a = flipped ? p.b : p.a, c = flipped ? p.a : p.b;
         const Placement from_a = old_place(old.a[i]), from_b = old_place(old.b[i]);
@@ -236,15 +208,15 @@ private:
 
         double area = 0.0, damaged = 0.0;
         for (std::size_t k = 0; k < p.points.size(); ++k) {
-            const int q = first_point + static_cast<int>(k), source = p.points[k] - first_point_;
-            const Vec3 xa = placement(b, p.a).to_body(from_a.to_space(old_points_.position_a[source]));
-            const Vec3 xb = placement(b, p.b).to_body(from_b.to_space(old_points_.position_b[source]));
+            const int q = first_point + static_cast<int>(k), source = first_old_point + static_cast<int>(k);
+            const Vec3 xa = placement(b, p.a).to_body(from_a.to_space(old_points.position_a[source]));
+            const Vec3 xb = placement(b, p.b).to_body(from_b.to_space(old_points.position_b[source]));
             state_.points.position_a.at(q) = flipped ? xb : xa;
             state_.points.position_b.at(q) = flipped ? xa : xb;
             // the jump and the normal turn round, the first tangent stays: only its component changes sign
-            if (flipped) state_.points.slip.at(q).x = -old_points_.slip[source].x;
-            area += old_points_.weight[source];
-            damaged += old_points_.weight[source] * old_points_.damage[source];
+            if (flipped) state_.points.slip.at(q).x = -old_points.slip[source].x;
+            area += old_points.weight[source];
+            damaged += old_points.weight[source] * old_points.damage[source];
         }
         const double share = area / old.area[i];
         f.area.at(n) = area;
@@ -315,9 +287,6 @@ private:
     const Model& model_;
     State& state_;
     std::map<int, Placement> before_;
-    InterfaceBonds old_;          // from first_ on, before the rebuild
-    InterfacePoints old_points_;  // from first_point_ on
-    int first_ = 0, first_point_ = 0;
 };
 
 }  // namespace
@@ -423,7 +392,7 @@ std::vector<int> divide_parallel_bonds(State& state, const std::vector<Parting>&
     std::stable_sort(order.begin(), order.end(), [&](int x, int y) {
         return std::pair{p.a[x], p.b[x]} < std::pair{p.a[y], p.b[y]};
     });
-    replace(p, 0, p.size(), order);
+    p = gathered(p, order);
     return order;
 }
 

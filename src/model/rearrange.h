@@ -1,52 +1,92 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Structs of arrays with entries put in, taken out and moved, in place.
+// Structs of arrays whose entries change places. Arrays that have no entry for each object (the begins of ranges) are
+// left alone.
 #pragma once
 
 #include "gpu/buffer.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace grainfrac {
 
-/// Entries [first, last) of every array that has an entry for each object; others (the begins of ranges) stay empty.
+/// Visits every array of `to` with the same array of `from`.
+template <class Arrays, class Visit>
+void for_each_pair(Arrays& to, Arrays& from, Visit&& visit)
+{
+    std::vector<void*> arrays;
+    from.for_each_array([&](const char*, auto& array) { arrays.push_back(&array); });
+    std::size_t k = 0;
+    to.for_each_array([&](const char*, auto& array) {
+        visit(array, *static_cast<const std::remove_reference_t<decltype(array)>*>(arrays[k++]));
+    });
+}
+
+/// The entries source[k]; default values where the source is -1.
 template <class Arrays>
-Arrays slice(Arrays& from, int first, int last)
+Arrays gathered(Arrays& from, const std::vector<int>& source)
 {
     Arrays to;
-    std::vector<void*> targets;
-    to.for_each_array([&](const char*, auto& array) { targets.push_back(&array); });
-    std::size_t k = 0;
     const int n = from.size();
-    from.for_each_array([&](const char*, auto& array) {
-        auto& target = *static_cast<std::remove_reference_t<decltype(array)>*>(targets[k++]);
+    for_each_pair(to, from, [&](auto& out, const auto& array) {
         if (array.size() != n) return;
-        const auto& values = std::as_const(array).host();
-        target.host().assign(values.begin() + first, values.begin() + last);
+        const auto& values = array.host();
+        auto& chosen = out.host();
+        chosen.resize(source.size());
+        for (std::size_t i = 0; i < source.size(); ++i) {
+            if (source[i] >= 0) chosen[i] = values[static_cast<std::size_t>(source[i])];
+        }
     });
     return to;
 }
 
-/// Puts the old entries source[k], all of [first, last), in the place of [first, last); default values where a source
-/// is -1. What follows moves along.
+/// New places for the entries of some arrays: runs that stay in their order, and single entries from elsewhere.
+struct Rearrangement {
+    struct Run {
+        int from = 0, to = 0, count = 0;
+    };
+    std::vector<Run> runs;
+    std::vector<int> places, sources;  ///< of the single entries; source -1: default values
+    int size = 0;                      ///< after it
+
+    void keep(int from, int count)
+    {
+        if (!runs.empty() && runs.back().from + runs.back().count == from && runs.back().to + runs.back().count == size)
+            runs.back().count += count;
+        else
+            runs.push_back({from, size, count});
+        size += count;
+    }
+    void put(int source)
+    {
+        places.push_back(size++);
+        sources.push_back(source);
+    }
+};
+
+/// In place: what is before the first change is not touched.
 template <class Arrays>
-void replace(Arrays& arrays, int first, int last, const std::vector<int>& source)
+void rearrange(Arrays& arrays, const Rearrangement& plan)
 {
+    Arrays single = gathered(arrays, plan.sources);
     const int n = arrays.size();
-    arrays.for_each_array([&](const char*, auto& array) {
+    for_each_pair(arrays, single, [&](auto& array, const auto& chosen) {
         if (array.size() != n) return;
-        auto& values = array.host();
-        using Value = typename std::remove_reference_t<decltype(values)>::value_type;
-        const std::vector<Value> old(values.begin() + first, values.begin() + last);
-        if (source.size() > old.size()) {
-            values.insert(values.begin() + last, source.size() - old.size(), Value{});
-        } else {
-            values.erase(values.begin() + first + static_cast<std::ptrdiff_t>(source.size()), values.begin() + last);
+        auto& v = array.host();
+        if (plan.size > n) v.resize(static_cast<std::size_t>(plan.size));
+        // downwards from the front, then upwards from the back: no run lands on one that has still to move
+        for (const auto& r : plan.runs) {
+            if (r.to < r.from) std::copy(v.begin() + r.from, v.begin() + r.from + r.count, v.begin() + r.to);
         }
-        for (std::size_t k = 0; k < source.size(); ++k)
-            values[static_cast<std::size_t>(first) + k] =
-                source[k] >= 0 ? old[static_cast<std::size_t>(source[k] - first)] : Value{};
+        for (auto r = plan.runs.rbegin(); r != plan.runs.rend(); ++r) {
+            if (r->to > r->from)
+                std::copy_backward(v.begin() + r->from, v.begin() + r->from + r->count, v.begin() + r->to + r->count);
+        }
+        v.resize(static_cast<std::size_t>(plan.size));
+        for (std::size_t k = 0; k < plan.places.size(); ++k)
+            v[static_cast<std::size_t>(plan.places[k])] = chosen.host()[k];
     });
 }
 
