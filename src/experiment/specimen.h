@@ -28,12 +28,16 @@ double mean_section(const Model& model, const State& state, int axis);
 
 /// Free grains whose centre is within `length` of the specimen's end at the side `sign` of an axis become bodies of the
 /// wall: they move as it does and do not turn, while their bonds hold on to the rest. Returns how many.
-/// `half`: only those above (side 1) or below (-1) a plane.
+int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length);
+
 struct HalfSpace {
-    int axis = 0, side = 0;  ///< side 0: all
+    int axis = 0, side = 0;  ///< side 1: above, -1: below
     double place = 0.0;      ///< [m]
 };
-int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length, const HalfSpace& half = {});
+/// The free grain of a half space whose centre is nearest to `place` becomes a pin of the wall: it moves as the wall
+/// does and turns freely. Its interfaces do not break, so that the load reaches the specimen. Returns its body, -1 if
+/// there is none.
+int pin_grain(Model& model, State& state, int wall, const Vec3& place, const HalfSpace& half);
 
 /// Mean position along an axis of a wall's bodies [m].
 double mean_position(const State& state, int wall, int axis);
