@@ -118,20 +118,27 @@ double fact(const Experiment& e, const std::string& name)
     return std::find_if(e.facts.begin(), e.facts.end(), [&](const NamedResult& f) { return f.name == name; })->value;
 }
 
-/// At the peak load: G of the crack that is as compliant as the specimen is there, so that the compliance of a process
-/// zone counts (de Moura et al. 2008, J. Compos. Mater. 42, 2069). At the end: the same, and how long it has become.
+/// G of the crack that is as compliant as the specimen, so that the compliance of a process zone counts (de Moura et
+/// al. 2008, J. Compos. Mater. 42, 2069): at the peak load, and as a mean from there on, while the crack grows.
 std::vector<NamedResult> results(const Experiment& e, const std::vector<CurvePoint>& curve)
 {
     const DcbArms arms{fact(e, "arm_bending_stiffness_N_m2"), fact(e, "arm_shear_stiffness_N"),
                        fact(e, "arm_foundation_N_per_m2"), fact(e, "arm_width_m")};
     const auto peak = std::max_element(curve.begin(), curve.end(),
                                        [](const CurvePoint& a, const CurvePoint& b) { return a.load < b.load; });
-    if (peak == curve.end() || peak->load <= 0.0 || curve.back().load <= 0.0) return {};
-    const auto length = [&](const CurvePoint& p) { return arms.crack_length(p.strain * e.specimen.length / p.load); };
-    const CurvePoint& last = curve.back();
-    return {{"fracture_energy_J_per_m2", arms.release_rate(peak->load, length(*peak))},
-            {"last_fracture_energy_J_per_m2", arms.release_rate(last.load, length(last))},
-            {"last_crack_length_m", length(last)}};
+    if (peak == curve.end() || peak->load <= 0.0) return {};
+    double at_peak = 0.0, sum = 0.0, length = 0.0;
+    int points = 0;
+    for (auto p = peak; p != curve.end() && p->load > 0.0; ++p) {
+        length = arms.crack_length(p->strain * e.specimen.length / p->load);
+        const double G = arms.release_rate(p->load, length);
+        if (p == peak) at_peak = G;
+        sum += G;
+        ++points;
+    }
+    return {{"fracture_energy_J_per_m2", at_peak},
+            {"mean_fracture_energy_J_per_m2", sum / points},
+            {"last_crack_length_m", length}};
 }
 
 }  // namespace

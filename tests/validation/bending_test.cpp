@@ -415,6 +415,8 @@ TEST_CASE("lengths that do not fit the specimen are refused, with the key that i
     CHECK(wrong_key(c) == "test.crack_length");
     c.test.crack_length = 10e-3;
     CHECK(wrong_key(c) == "");
+    c.test.grip_length = 11e-3;  // beyond the crack
+    CHECK(wrong_key(c) == "test.grip_length");
     c = layer(4, 11, "uniaxial_tension");
     c.test.grip_length = 6e-3;
     CHECK(wrong_key(c) == "test.grip_length");

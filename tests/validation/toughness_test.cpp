@@ -7,6 +7,7 @@
 #include "support/disc.h"
 
 #include <filesystem>
+#include <unistd.h>
 
 using namespace grainfrac;
 using namespace grainfrac::test;
@@ -25,7 +26,8 @@ PartSpec blocks(const std::string& name, const Vec3& size, int columns, int rows
             grains.push_back(grain(make_box(size, site), site, 0.04 * std::min(size.x, size.y)));
         }
     }
-    const auto file = std::filesystem::temp_directory_path() / ("grainfrac_toughness_" + name + ".json");
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("grainfrac_toughness_" + std::to_string(getpid()) + "_" + name + ".json");
     write_microstructure(file, grains, name);
     PartSpec p;
     p.name = name;
@@ -33,6 +35,14 @@ PartSpec blocks(const std::string& name, const Vec3& size, int columns, int rows
     p.generator = "file";
     p.file = file.string();
     return p;
+}
+
+/// Build, then delete the files that blocks() wrote.
+Built built_of(const Case& c, Device device)
+{
+    Built b = build(c, device);
+    for (const PartSpec& p : c.parts) std::filesystem::remove(p.file);
+    return b;
 }
 
 Case case_of(const std::vector<PartSpec>& parts, const char* kind)
@@ -136,7 +146,7 @@ TEST_CASE("double cantilever beam: compliance and tip traction of the static sol
             const int cracked = static_cast<int>(std::lround(10 * d.H / d.s));
             Case c = dcb_case(d, cracked, static_cast<int>(std::lround(9 / Ls)));
             c.bonds[0].shear_ratio = c.bonds[1].shear_ratio = shear_ratio;
-            Built built = build(c, Device::cpu);
+            Built built = built_of(c, Device::cpu);
             Assembly a{built.model, built.state, {}};
             State& s = a.state;
             std::vector<Held> held(static_cast<std::size_t>(s.bodies.size()),
@@ -243,7 +253,7 @@ CriticalLoad open_dcb(double H, double G_c, bool soft)
     const double a = (cracked - 0.5) * d.s, f = arms.foundation_length(),
                  P_c = std::sqrt(G_c * arms.width * arms.bending) / (a + f), opening = arms.compliance(a) * P_c;
     c.test.platen_speed = opening / ((soft ? 7.5 : 1.5) * *c.test.ramp);
-    Built built = build(c, Device::cpu);
+    Built built = built_of(c, Device::cpu);
     const Experiment& e = built.experiment;
     const double wanted = opening * std::pow((a + H + f) / (a + f), 2);  // while the crack grows, C P_c is as (a + f)^2
     const int pin = body_of(built.state, e.specimen.loaded_wall);
@@ -298,7 +308,8 @@ TEST_CASE("double cantilever beam, cohesive: the crack grows at G_c, whatever th
     }
 }
 
-// Square blocks: a straight crack between them. E' = E (nu = 0), l_cz = E G_c/sigma_c^2 = 4 blocks, ligament of 20.
+// Square blocks: a straight crack between them. E' = E (nu = 0), l_cz = E G_c/sigma_c^2 = 4 blocks, ligament of 20. The
+// process zone makes the crack act longer by 0.29 l_cz, which is 9.3 % of K (docs/theory/toughness.md).
 TEST_CASE("notched beam: fails at sqrt(E' G_c)", "[slow]")
 {
     const double h = 0.1e-3, G_c = 29, K_c = std::sqrt(E * G_c), strength = std::sqrt(E * G_c / (4 * h));
@@ -318,7 +329,7 @@ TEST_CASE("notched beam: fails at sqrt(E' G_c)", "[slow]")
     c.test.wall_friction = 0.0;
     c.test.platen_speed = 0.04;
     c.test.ramp = 5 * c.test.outer_span * 3 / std::sqrt(E / density);
-    Built built = build(c, default_device());
+    Built built = built_of(c, default_device());
     double peak = 0, worst = 0;
     const std::vector<CurvePoint> curve = load_until(built, 50, [&](const std::vector<CurvePoint>& points) {
         peak = std::max(peak, points.back().load);
