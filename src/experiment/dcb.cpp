@@ -113,11 +113,6 @@ DcbArms arms_of(const Material& m, const State& state, int up, double middle, do
     return arms;
 }
 
-double fact(const Experiment& e, const std::string& name)
-{
-    return std::find_if(e.facts.begin(), e.facts.end(), [&](const NamedResult& f) { return f.name == name; })->value;
-}
-
 /// G of the crack that is as compliant as the specimen, so that the compliance of a process zone counts (de Moura et
 /// al. 2008, J. Compos. Mater. 42, 2069): at the peak load, and as a mean from there on, while the crack grows.
 std::vector<NamedResult> results(const Experiment& e, const std::vector<CurvePoint>& curve)

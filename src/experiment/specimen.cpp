@@ -158,6 +158,11 @@ void set_loading_stage(const Case& c, const Model& model, double ramp_length, Ex
     if (load.duration) expect(*load.duration);
 }
 
+double fact(const Experiment& e, const std::string& name)
+{
+    return std::find_if(e.facts.begin(), e.facts.end(), [&](const NamedResult& f) { return f.name == name; })->value;
+}
+
 double secant_modulus(const std::vector<CurvePoint>& curve)
 {
     const auto peak = std::max_element(curve.begin(), curve.end(),

@@ -46,6 +46,9 @@ double mean_position(const State& state, int wall, int axis);
 /// a guess of how long it takes. Unless test.ramp says otherwise the speed rises over 10 `ramp_length`/c_0.
 void set_loading_stage(const Case& c, const Model& model, double ramp_length, Experiment& e);
 
+/// One of the experiment's facts by name, which must be there.
+double fact(const Experiment& e, const std::string& name);
+
 /// Slope of nominal stress over nominal strain between 10 % and 40 % of the peak; 0 if the curve has no such points
 /// [Pa].
 double secant_modulus(const std::vector<CurvePoint>& curve);

@@ -142,8 +142,8 @@ double honeycomb_inertia_ratio(int n)
     return 1 - 1 / m + 4 / (9 * m * m) - 4 / (27 * m * m * m);
 }
 /// Nominal strength 3 P L_i/(t w^2) over the tensile strength of a face that breaks at its worst corner: sigma_xx = M
-/// y/I at the lower corner of the upright faces of the lowest row, 1.5 r (n - 1/3)/2 below the middle. Of the inclined
-/// faces none bears more than a quarter of it along its normal.
+/// y/I at the lower corner of the upright faces of the lowest row, 1.5 r (n - 1/3)/2 below the middle. Inclined
+/// faces bear about a quarter of it along their normals.
 double honeycomb_strength_ratio(int n)
 {
     return honeycomb_inertia_ratio(n) / (1 - 1.0 / (3 * n));

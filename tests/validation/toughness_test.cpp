@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Toughness from whole tests against closed forms: double cantilever beam, notched beam.
-#include "experiment/bending.h"
 #include "experiment/dcb.h"
+#include "experiment/specimen.h"
 #include "generate/microstructure.h"
 #include "support/assembly.h"
 #include "support/disc.h"
@@ -168,9 +168,7 @@ TEST_CASE("double cantilever beam: compliance and tip traction of the static sol
             INFO("k_s/k_n " << shear_ratio << ", Lambda s " << Ls << ": compliance " << compliance << ", tip " << tip);
             CHECK(std::fabs(compliance) < (Ls < 0.4 ? 3e-5 : 1.2e-4));
             CHECK(std::fabs(tip) < (Ls > 0.4 ? 0.04 : (Ls > 0.2 ? 0.01 : 0.003)));
-            const NamedResult& fact = built.experiment.facts.back();
-            CHECK(fact.name == "compliance_m_per_N");
-            CHECK(fact.value == Approx(arms.compliance(length)).epsilon(1e-9));
+            CHECK(fact(built.experiment, "compliance_m_per_N") == Approx(arms.compliance(length)).epsilon(1e-9));
             if (shear_ratio == 1e3) {
                 const double EI = arms.bending, l = 1 / Lambda;
                 CHECK(arms.compliance(length) ==
@@ -210,19 +208,14 @@ TEST_CASE("double cantilever beam: arms of four rows of hexagons bend as the lat
     c.test.crack_length = 3e-3;
     const Built built = build(c, Device::cpu);
     CHECK(built.state.bodies.size() == 2 * 4 * 35);
-    const auto fact = [&](const char* name) {
-        for (const NamedResult& f : built.experiment.facts) {
-            if (f.name == name) return f.value;
-        }
-        return 0.0;
-    };
-    CHECK(fact("arm_height_m") == Approx(H).epsilon(1e-3));
+    CHECK(fact(built.experiment, "arm_height_m") == Approx(H).epsilon(1e-3));
     // free zigzag rows: bending_test.cpp, honeycomb_inertia_ratio
-    CHECK(fact("arm_bending_stiffness_N_m2") ==
+    CHECK(fact(built.experiment, "arm_bending_stiffness_N_m2") ==
           Approx(E * t * H * H * H / 12 * (1 - 1 / n + 4 / (9 * n * n) - 4 / (27 * n * n * n))).epsilon(1e-3));
     // faces of the joint stand at 30 deg to the crack: 1/cos 30 of area
     const double k = 2 * E / (std::numbers::sqrt3 * side) / std::cos(std::numbers::pi / 6) * t;
-    CHECK(fact("arm_foundation_N_per_m2") == Approx(1 / (1 / k + 0.5 * 4.5 * side / (E * t))).epsilon(1e-3));
+    CHECK(fact(built.experiment, "arm_foundation_N_per_m2") ==
+          Approx(1 / (1 / k + 0.5 * 4.5 * side / (E * t))).epsilon(1e-3));
 }
 
 struct CriticalLoad {
