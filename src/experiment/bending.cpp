@@ -62,13 +62,6 @@ std::vector<NamedResult> results(const Experiment&, const std::vector<CurvePoint
     return {{"flexural_modulus_Pa", secant_modulus(curve)}};
 }
 
-double fact(const Experiment& e, const std::string& name)
-{
-    const auto found =
-        std::find_if(e.facts.begin(), e.facts.end(), [&](const NamedResult& f) { return f.name == name; });
-    return found->value;
-}
-
 /// K at the peak load, the fracture toughness if the notch then began to grow.
 std::vector<NamedResult> notch_results(const Experiment& e, const std::vector<CurvePoint>& curve)
 {

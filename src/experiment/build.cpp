@@ -30,7 +30,7 @@ namespace {
 constexpr double default_skin = 0.1;
 
 /// A beam of whole grains rests on its rollers edge on round: without friction it would slip off sideways. Friction
-/// mu of the rollers takes up to mu w/(2 a) from the bending moment, 5 % here for w = a.
+/// mu of the rollers takes up to mu w/a from the bending moment, 10 % here for w = a.
 constexpr double default_roller_friction = 0.1;
 
 /// Every test by the name that test.kind gives it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace grainfrac {
@@ -67,7 +68,7 @@ double mean_section(const Model& model, const State& state, int axis)
     return sum / (0.5 * length);
 }
 
-int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length, const HalfSpace& half)
+int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length)
 {
     const Extent x = specimen_extent(model, state);
     Bodies& b = state.bodies;
@@ -75,7 +76,7 @@ int grip_end(const Model& model, State& state, int wall, int axis, int sign, dou
     for (int i = 0; i < b.size(); ++i) {
         if (b.inverse_mass[i] == 0.0) continue;
         const double depth = sign > 0 ? x.high[axis] - b.position[i][axis] : b.position[i][axis] - x.low[axis];
-        if (depth > length || half.side * (b.position[i][half.axis] - half.place) < 0.0) continue;
+        if (depth > length) continue;
         const auto k = static_cast<std::size_t>(i);
         b.inverse_mass.host()[k] = 0.0;
         b.inverse_inertia.host()[k] = {};
@@ -84,6 +85,34 @@ int grip_end(const Model& model, State& state, int wall, int axis, int sign, dou
         ++gripped;
     }
     return gripped;
+}
+
+int pin_grain(Model& model, State& state, int wall, const Vec3& place, const HalfSpace& half)
+{
+    Bodies& b = state.bodies;
+    int pin = -1;
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.inverse_mass[i] == 0.0 || half.side * (b.position[i][half.axis] - half.place) < 0.0) continue;
+        if (pin < 0 || norm(b.position[i] - place) < norm(b.position[pin] - place)) pin = i;
+    }
+    if (pin < 0) return pin;
+    const auto k = static_cast<std::size_t>(pin);
+    b.inverse_mass.host()[k] = 0.0;
+    b.velocity.host()[k] = {};
+    b.wall.host()[k] = wall;
+    InterfaceBonds& f = state.interfaces;
+    std::map<std::int32_t, std::int32_t> holding;  // law -> the same without failure
+    for (int i = 0; i < f.size(); ++i) {
+        if (f.a[i] != pin && f.b[i] != pin) continue;
+        const auto [entry, is_new] = holding.try_emplace(f.law[i], model.interface_laws.size());
+        if (is_new) {
+            InterfaceLaw law = model.interface_laws[f.law[i]];
+            law.failure = FailureUnit::unbreakable;
+            model.interface_laws.host().push_back(law);
+        }
+        f.law.host()[static_cast<std::size_t>(i)] = entry->second;
+    }
+    return pin;
 }
 
 double mean_position(const State& state, int wall, int axis)
@@ -127,6 +156,11 @@ void set_loading_stage(const Case& c, const Model& model, double ramp_length, Ex
         expect(expected_strains * strength / m.young_modulus * s.length / c.test.platen_speed + 0.5 * load.ramp);
     if (load.displacement) expect(*load.displacement / c.test.platen_speed + 0.5 * load.ramp);
     if (load.duration) expect(*load.duration);
+}
+
+double fact(const Experiment& e, const std::string& name)
+{
+    return std::find_if(e.facts.begin(), e.facts.end(), [&](const NamedResult& f) { return f.name == name; })->value;
 }
 
 double secant_modulus(const std::vector<CurvePoint>& curve)

@@ -28,12 +28,16 @@ double mean_section(const Model& model, const State& state, int axis);
 
 /// Free grains whose centre is within `length` of the specimen's end at the side `sign` of an axis become bodies of the
 /// wall: they move as it does and do not turn, while their bonds hold on to the rest. Returns how many.
-/// `half`: only those above (side 1) or below (-1) a plane.
+int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length);
+
 struct HalfSpace {
-    int axis = 0, side = 0;  ///< side 0: all
+    int axis = 0, side = 0;  ///< side 1: above, -1: below
     double place = 0.0;      ///< [m]
 };
-int grip_end(const Model& model, State& state, int wall, int axis, int sign, double length, const HalfSpace& half = {});
+/// The free grain of a half space whose centre is nearest to `place` becomes a pin of the wall: it moves as the wall
+/// does and turns freely. Its interfaces do not break, so that the load reaches the specimen. Returns its body, -1 if
+/// there is none.
+int pin_grain(Model& model, State& state, int wall, const Vec3& place, const HalfSpace& half);
 
 /// Mean position along an axis of a wall's bodies [m].
 double mean_position(const State& state, int wall, int axis);
@@ -41,6 +45,9 @@ double mean_position(const State& state, int wall, int axis);
 /// Wave speed, the stage "load", in which the loaded and the opposite wall each move at half of test.platen_speed, and
 /// a guess of how long it takes. Unless test.ramp says otherwise the speed rises over 10 `ramp_length`/c_0.
 void set_loading_stage(const Case& c, const Model& model, double ramp_length, Experiment& e);
+
+/// One of the experiment's facts by name, which must be there.
+double fact(const Experiment& e, const std::string& name);
 
 /// Slope of nominal stress over nominal strain between 10 % and 40 % of the peak; 0 if the curve has no such points
 /// [Pa].

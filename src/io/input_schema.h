@@ -528,8 +528,8 @@ void describe(V& v, TestSpec& s)
        .range = positive,
        .required = always,
        .used = driven,
-       .meaning =
-           "closing speed of the two platens, or of rollers and supports, together; opening speed of two grips"});
+       .meaning = "closing speed of the two platens, or of rollers and supports, together; opening speed of two grips "
+                  "or pins"});
     v("platen", s.platen, {.words = "flat | curved", .used = brazilian, .meaning = "shape of the loaded face"});
     v("platen_radius", s.platen_radius,
       {.unit = "m",
@@ -556,8 +556,9 @@ void describe(V& v, TestSpec& s)
       {.unit = "m",
        .range = positive,
        .used = gripped,
-       .unset = "one row of grains",
-       .meaning = "the grains whose centre is this near to an end are held there; dcb: this near to the open end"});
+       .unset = "one row of grains; dcb: the first grain",
+       .meaning = "the grains whose centre is this near to an end are held there; dcb: distance of the pins from the "
+                  "open end"});
     v("wall_friction", s.wall_friction,
       {.range = not_negative,
        .used = rubs,

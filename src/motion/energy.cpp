@@ -20,15 +20,15 @@ double total(Device d, const Buffer<double>& values)
     return parallel_sum(d, values.size(), Entry{values.read(d)});
 }
 
-/// 1/2 m v^2 + 1/2 L_b . I^-1 L_b of the free bodies.
+/// 1/2 m v^2 + 1/2 L_b . I^-1 L_b of what is not driven.
 struct KineticEnergy {
     View<const Vec3> velocity, angular_momentum, inverse_inertia;
     View<const double> mass, inverse_mass;
     GF_FN double operator()(int i) const
     {
-        if (inverse_mass[i] == 0.0) return 0.0;
         const Vec3 L = angular_momentum[i], j = inverse_inertia[i];
-        return 0.5 * mass[i] * norm2(velocity[i]) + 0.5 * (L.x * L.x * j.x + L.y * L.y * j.y + L.z * L.z * j.z);
+        const double translation = inverse_mass[i] > 0.0 ? 0.5 * mass[i] * norm2(velocity[i]) : 0.0;
+        return translation + 0.5 * (L.x * L.x * j.x + L.y * L.y * j.y + L.z * L.z * j.z);
     }
 };
 

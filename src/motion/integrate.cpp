@@ -23,6 +23,12 @@ GF_FN Vec3 scaled(const Vec3& a, const Vec3& b)
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
+/// All but driven bodies and those without rotation; a pin is driven and turns.
+GF_FN bool turns_freely(const Vec3& inverse_inertia)
+{
+    return norm2(inverse_inertia) > 0.0;
+}
+
 struct Kick {
     static constexpr const char* name = "kick";
     double dt, local_damping;
@@ -35,23 +41,29 @@ struct Kick {
 
     GF_FN void operator()(int i) const
     {
+        double braked = 0.0;           // power of the drag [W]
         if (inverse_mass[i] == 0.0) {  // driven: the system pushes back, we push with the opposite force
-            external_work[i] -= dt * (dot(force[i], velocity[i]) + dot(torque[i], angular_velocity[i]));
-            return;
+            if (!turns_freely(inverse_inertia[i])) {
+                external_work[i] -= dt * (dot(force[i], velocity[i]) + dot(torque[i], angular_velocity[i]));
+                return;
+            }
+            external_work[i] -= dt * dot(force[i], velocity[i]);
+        } else {
+            const Vec3 v = velocity[i];
+            const Vec3 drag = local_damping > 0.0 ? local_drag(local_damping, force[i], v) : Vec3{};
+            const Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
+            const Vec3 mean = 0.5 * (v + v_new);
+            gravity_work[i] += dt * mass[i] * dot(gravity, mean);
+            velocity[i] = v_new;
+            braked = dot(drag, mean);
         }
-        const Vec3 v = velocity[i];
-        const Vec3 drag = local_damping > 0.0 ? local_drag(local_damping, force[i], v) : Vec3{};
-        const Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
-        const Vec3 mean = 0.5 * (v + v_new);
-        gravity_work[i] += dt * mass[i] * dot(gravity, mean);
-        velocity[i] = v_new;
 
         const Vec3 t = rotate_back(orientation[i], torque[i]);
         const Vec3 spin = scaled(inverse_inertia[i], angular_momentum[i]);
         const Vec3 brake = local_damping > 0.0 ? local_drag(local_damping, t, spin) : Vec3{};
         const Vec3 L = angular_momentum[i] + dt * (t + brake);
         const Vec3 spin_new = scaled(inverse_inertia[i], L);
-        damping_work[i] -= dt * (dot(drag, mean) + dot(brake, 0.5 * (spin + spin_new)));
+        damping_work[i] -= dt * (braked + dot(brake, 0.5 * (spin + spin_new)));
         angular_momentum[i] = L;
         angular_velocity[i] = rotate(orientation[i], spin_new);
     }
@@ -61,14 +73,13 @@ struct Drift {
     static constexpr const char* name = "drift";
     double dt;
     View<const Vec3> velocity, inverse_inertia;
-    View<const double> inverse_mass;
     View<Vec3> position, angular_momentum, angular_velocity;
     View<Quat> orientation;
 
     GF_FN void operator()(int i) const
     {
         position[i] += dt * velocity[i];
-        if (inverse_mass[i] == 0.0) return;
+        if (!turns_freely(inverse_inertia[i])) return;
         Vec3 L = angular_momentum[i];
         Quat q = orientation[i];
         rotate_freely(inverse_inertia[i], dt, L, q);
@@ -92,13 +103,12 @@ struct MoveWalls {
 
 struct UpdateAngularVelocity {
     static constexpr const char* name = "update angular velocity";
-    View<const double> inverse_mass;
     View<const Quat> orientation;
     View<const Vec3> inverse_inertia, angular_momentum;
     View<Vec3> angular_velocity;
     GF_FN void operator()(int i) const
     {
-        if (inverse_mass[i] == 0.0) return;
+        if (!turns_freely(inverse_inertia[i])) return;
         angular_velocity[i] = rotate(orientation[i], scaled(inverse_inertia[i], angular_momentum[i]));
     }
 };
@@ -121,7 +131,7 @@ void drift(const Model& model, State& state, double dt)
     const Device d = model.device;
     Bodies& b = state.bodies;
     parallel_for(d, b.size(),
-                 Drift{dt, b.velocity.read(d), b.inverse_inertia.read(d), b.inverse_mass.read(d), b.position.write(d),
+                 Drift{dt, b.velocity.read(d), b.inverse_inertia.read(d), b.position.write(d),
                        b.angular_momentum.write(d), b.angular_velocity.write(d), b.orientation.write(d)});
 }
 
@@ -138,8 +148,8 @@ void update_angular_velocity(const Model& model, State& state)
     const Device d = model.device;
     Bodies& b = state.bodies;
     parallel_for(d, b.size(),
-                 UpdateAngularVelocity{b.inverse_mass.read(d), b.orientation.read(d), b.inverse_inertia.read(d),
-                                       b.angular_momentum.read(d), b.angular_velocity.write(d)});
+                 UpdateAngularVelocity{b.orientation.read(d), b.inverse_inertia.read(d), b.angular_momentum.read(d),
+                                       b.angular_velocity.write(d)});
 }
 
 }  // namespace grainfrac

@@ -230,7 +230,8 @@ TimeStepBound bound_of(const Model& model, const State& state, const std::vector
     double largest = 0.0;
     TimeStepBound bound;
     for (int i = 0; i < state.bodies.size(); ++i) {
-        if (state.bodies.inverse_mass[i] == 0.0 || s.strongest[static_cast<std::size_t>(i)] == 0.0) continue;
+        const bool moves = state.bodies.inverse_mass[i] > 0.0 || norm2(state.bodies.inverse_inertia[i]) > 0.0;
+        if (!moves || s.strongest[static_cast<std::size_t>(i)] == 0.0) continue;
         const double lambda = largest_eigenvalue(state.bodies, i, s.K[static_cast<std::size_t>(i)]);
         if (lambda > largest) {
             largest = lambda;

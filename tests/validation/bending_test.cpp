@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ready-made tests against closed forms: uniaxial modulus, bending, notched beam, double cantilever beam, drop.
+// Ready-made tests against closed forms: uniaxial modulus, bending, drop.
 #include "experiment/bending.h"
 
-#include "experiment/dcb.h"
 #include "experiment/specimen.h"
 #include "fracture/grain_stress.h"
+#include "generate/microstructure.h"
+#include "support/assembly.h"
 #include "support/disc.h"
 
 #include <catch2/catch.hpp>
@@ -114,57 +115,237 @@ TEST_CASE("uniaxial: compression with gripped ends is as stiff as tension")
     CHECK(modulus[0] == Approx(modulus[1]).epsilon(1e-3));
 }
 
-/// Bending moment about the middle of the beam, from what the rollers on its left do to it: their friction included.
-double moment_at_mid_span(const Built& b, const Vec3& middle)
+/// Section force at mid span, from what the rollers on its left do to the beam: their friction included.
+struct SectionForce {
+    double moment = 0, tension = 0;  ///< [N m], [N]
+};
+SectionForce at_mid_span(const Built& b, const Vec3& middle)
 {
-    double M = 0;
+    SectionForce s;
     for (int i = 0; i < b.state.bodies.size(); ++i) {
         const Vec3 arm = b.state.bodies.position[i] - middle;
         if (b.state.bodies.wall[i] < 0 || arm.x > 0.0) continue;
-        M += cross(arm, b.state.bodies.force[i]).z + b.state.bodies.torque[i].z;  // on the roller: the beam's opposite
+        // forces on the roller: the beam's opposite
+        s.moment += cross(arm, b.state.bodies.force[i]).z + b.state.bodies.torque[i].z;
+        s.tension += b.state.bodies.force[i].x;
     }
-    return M;
+    s.moment = std::fabs(s.moment);
+    return s;
 }
 
-// The free zigzag rows lower the bending stiffness of n rows to (1 - 1/(3 n))^3 E I, as they lower the tensile one to
-// 1 - 1/(3 n); so the interior rows bear sigma_xx = M y/((1 - 1/(3 n))^3 I). The lattice itself is off by 2.3 % at 5
-// rows.
-TEST_CASE("four-point bending: slope of the grain stress over the height is M/I_effective within 2.3 % at 5 rows")
+/// I of n rows of whole hexagons over that of the full height 1.5 r n. The field u = kappa (x y, -x^2/2), each grain
+/// turned by -kappa x, is in equilibrium to the last grain, free zigzag rows included, if k_n = k_s = E/h; the moment
+/// of its tractions over a cut along faces is E kappa I with this I: (1 - 1/(3 n))^3 but for 1/(9 n^2).
+double honeycomb_inertia_ratio(int n)
 {
-    const int rows = 5;
-    Case c = layer(31, rows, "four_point_bending");
-    c.test.outer_span = 28 * pitch;
-    c.test.inner_span = 14 * pitch;
-    c.bonds[0].damping = 0.5;
-    Built b = build(c, default_device());
-    load_up(b, 1.2);
-    const Measurement m = measure(b.experiment, b.model, b.state);
-    const double w = 1.5 * r * rows, I = t * w * w * w / 12.0;
-    const Extent box = specimen_extent(b.model, b.state);
-    const double M = moment_at_mid_span(b, box.center()),
-                 nominal = 0.25 * m.load * (c.test.outer_span - c.test.inner_span);
-    CHECK(m.stress == Approx(nominal * 0.5 * w / I).epsilon(1e-3));  // sigma = 3 P L_i/(t w^2)
-    const std::vector<Mat3> stress = grain_stress(b.model, b.state);
-    std::map<long, std::pair<double, int>> of_row;
-    for (int i = 0; i < b.state.bodies.size(); ++i) {
-        const Vec3 x = b.state.bodies.start_position[i] - box.center();
-        if (b.state.bodies.inverse_mass[i] == 0.0 || std::fabs(x.x) > 3.0 * pitch) continue;
-        auto& [sum, n] = of_row[std::lround(x.y / (1.5 * r))];
+    const double m = n;
+    return 1 - 1 / m + 4 / (9 * m * m) - 4 / (27 * m * m * m);
+}
+/// Nominal strength 3 P L_i/(t w^2) over the tensile strength of a face that breaks at its worst corner: sigma_xx = M
+/// y/I at the lower corner of the upright faces of the lowest row, 1.5 r (n - 1/3)/2 below the middle. Inclined
+/// faces bear about a quarter of it along their normals.
+double honeycomb_strength_ratio(int n)
+{
+    return honeycomb_inertia_ratio(n) / (1 - 1.0 / (3 * n));
+}
+
+/// Slope of the mean sigma_xx of the rows over their height, free rows left out; grains of |x - x_c| < reach.
+double slope_over_rows(const Model& model, const State& state, const Vec3& middle, double reach, int rows)
+{
+    const std::vector<Mat3> stress = grain_stress(model, state);
+    std::map<long, std::pair<double, int>> of_row;  // by height in half rows
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        const Vec3 x = state.bodies.start_position[i] - middle;
+        if (state.bodies.wall[i] >= 0 || std::fabs(x.x) > reach) continue;
+        auto& [sum, n] = of_row[std::lround(x.y / (0.75 * r))];
         sum += stress[static_cast<std::size_t>(i)][0].x;
         ++n;
     }
     REQUIRE(static_cast<int>(of_row.size()) == rows);
     std::vector<double> y, s;
     for (const auto& [row, sum] : of_row) {
-        if (std::labs(row) > 1) continue;  // the free zigzag rows
-        y.push_back(1.5 * r * static_cast<double>(row));
+        if (std::labs(row) == rows - 1) continue;
+        y.push_back(0.75 * r * static_cast<double>(row));
         s.push_back(sum.first / sum.second);
     }
-    const double effective = I * std::pow(1.0 - 1.0 / (3.0 * rows), 3);
-    const double ratio = -slope(y, s) / (std::fabs(M) / effective);
-    WARN("slope of sigma_xx over the height is " << ratio << " of M/I_effective; M is " << std::fabs(M) / nominal
-                                                 << " of P L_i/2; platen imbalance " << m.platen_imbalance);
-    CHECK(ratio == Approx(1.0).margin(0.023));
+    return slope(y, s);
+}
+
+/// Largest tension across upright faces at their corners: where and how much.
+struct WorstCorner {
+    Vec3 place;
+    double traction = 0;  ///< [Pa]
+};
+WorstCorner worst_corner(const State& s, double reach, const Vec3& middle)
+{
+    const InterfaceBonds& f = s.interfaces;
+    WorstCorner worst;
+    for (int i = 0; i < f.size(); ++i) {
+        const Vec3 n = rotate(s.bodies.orientation[f.a[i]], f.normal_a[i]);
+        const Vec3 x = 0.5 * (s.bodies.start_position[f.a[i]] + s.bodies.start_position[f.b[i]]) - middle;
+        if (std::fabs(n.x) < 0.9 || std::fabs(x.x) > reach) continue;
+        for (int q = f.corner_begin[i]; q < f.corner_begin[i + 1]; ++q) {
+            const Vec3 jump = s.bodies.position[f.b[i]] - s.bodies.position[f.a[i]] +
+                              rotate(s.bodies.orientation[f.b[i]], s.corners.position_b[q]) -
+                              rotate(s.bodies.orientation[f.a[i]], s.corners.position_a[q]);
+            const double sigma = f.normal_stiffness[i] * dot(jump, n);
+            if (sigma > worst.traction) worst = {x, sigma};
+        }
+    }
+    return worst;
+}
+
+struct Strip {
+    Assembly assembly;
+    std::vector<Held> held;
+    Vec3 middle;
+};
+Strip honeycomb_strip(int columns, int rows)
+{
+    Strip s{assemble(generate_grains(layer(columns, rows, "custom"))), {}, {}};
+    bond(s.assembly, elastic_law(), E, 0.0, 1.0, QuadratureRule::cross);
+    s.middle = specimen_extent(s.assembly.model, s.assembly.state).center();
+    s.held.assign(static_cast<std::size_t>(s.assembly.state.bodies.size()), {false, false, true, true, true, false});
+    build_incidence(s.assembly.state);
+    s.assembly.state.slots.dyad_a.resize(s.assembly.state.interfaces.size());
+    s.assembly.state.slots.dyad_b.resize(s.assembly.state.interfaces.size());
+    return s;
+}
+
+TEST_CASE("pure bending of the honeycomb: stress over the height is M/I of the lattice, to round-off")
+{
+    for (const int rows : {5, 10, 20, 40}) {
+        Strip strip = honeycomb_strip(8, rows);
+        State& s = strip.assembly.state;
+        const double kappa = 1e-6 / (rows * r), reach = 3.0 * pitch;
+        Eigen::VectorXd load = Eigen::VectorXd::Zero(6 * s.bodies.size());
+        std::vector<int> right;
+        for (int i = 0; i < s.bodies.size(); ++i) {
+            const Vec3 x = s.bodies.position[i] - strip.middle;
+            if (std::fabs(x.x) < reach) continue;
+            strip.held[static_cast<std::size_t>(i)] = {true, true, true, true, true, true};
+            shift(s, i, {kappa * x.x * x.y, -0.5 * kappa * x.x * x.x, 0});
+            turn(s, i, from_axis_angle({0, 0, 1}, -kappa * x.x));
+            if (x.x > 0) right.push_back(i);
+        }
+        solve_static(strip.assembly, strip.held, load, 1e-19);
+        double M = 0;  // of the right end about the middle
+        for (const int i : right) {
+            const Vec3 arm = s.bodies.position[i] - strip.middle;
+            M += cross(arm, s.bodies.force[i]).z + s.bodies.torque[i].z;
+        }
+        const double w = 1.5 * r * rows, I = t * w * w * w / 12.0;
+        const double found = slope_over_rows(strip.assembly.model, s, strip.middle, 1.4 * pitch, rows);
+        INFO(rows << " rows: slope/(E kappa) - 1 = " << found / (E * kappa) - 1
+                  << ", M/(E kappa I) = " << std::fabs(M) / (E * kappa * I));
+        CHECK(found == Approx(E * kappa).epsilon(1e-5));
+        CHECK(std::fabs(M) == Approx(E * kappa * I * honeycomb_inertia_ratio(rows)).epsilon(1e-5));
+        CHECK(honeycomb_inertia_ratio(rows) == Approx(std::pow(1 - 1.0 / (3 * rows), 3)).margin(0.12 / (rows * rows)));
+    }
+}
+
+// Four grains of the outer rows are loaded, the outer span is 8 heights, the inner one 4. What is left of the loads'
+// own stress field at mid span is far below the bars, which are those of the physics sheet: 2.3 %, 0.55 %, 0.16 %, 0.04
+// %.
+TEST_CASE("four-point bending, static: slope of the grain stress over the height at 5, 10, 20 and 40 rows")
+{
+    for (const int rows : {5, 10, 20, 40}) {
+        const double w = 1.5 * r * rows, I = t * w * w * w / 12.0;
+        Strip strip = honeycomb_strip(static_cast<int>(8.5 * w / pitch), rows);
+        State& s = strip.assembly.state;
+        const auto nearest = [&](double x, int side) {
+            int best = 0;
+            const Vec3 at = strip.middle + Vec3{x, side * 0.5 * (w - 1.5 * r), 0};
+            for (int i = 0; i < s.bodies.size(); ++i) {
+                if (norm(s.bodies.position[i] - at) < norm(s.bodies.position[best] - at)) best = i;
+            }
+            return best;
+        };
+        const int left = nearest(-4 * w, -1), right = nearest(4 * w, -1);
+        strip.held[static_cast<std::size_t>(left)][0] = strip.held[static_cast<std::size_t>(left)][1] = true;
+        strip.held[static_cast<std::size_t>(right)][1] = true;
+        Eigen::VectorXd load = Eigen::VectorXd::Zero(6 * s.bodies.size());
+        const double P = 1e-3;
+        const int inner = nearest(-2 * w, 1);
+        load[6 * inner + 1] = load[6 * nearest(2 * w, 1) + 1] = -0.5 * P;
+        solve_static(strip.assembly, strip.held, load, 1e-18);
+        // grains lie near to the spans, not on them: the moment at mid span from what the support bears
+        const double M = std::fabs(s.bodies.force[left].y) * (strip.middle.x - s.bodies.position[left].x) -
+                         0.5 * P * (strip.middle.x - s.bodies.position[inner].x);
+        const double found = -slope_over_rows(strip.assembly.model, s, strip.middle, 3.1 * pitch, rows);
+        const double ratio = found * I * honeycomb_inertia_ratio(rows) / M;
+        INFO(rows << " rows: slope of sigma_xx is " << ratio << " of M/I of the lattice, " << found * I / M
+                  << " of M/I of the full height");
+        CHECK(ratio == Approx(1.0).margin(1e-5));
+        // first failure: the closed form at mid span; the loads' own field adds 1.4 to 2.9 % a third of a height inside
+        const double expected = M * 0.5 * w / I / honeycomb_strength_ratio(rows);
+        CHECK(worst_corner(s, pitch, strip.middle).traction == Approx(expected).epsilon(5e-4));
+        const WorstCorner worst = worst_corner(s, 1e9, strip.middle);
+        CHECK(worst.traction == Approx(1.02 * expected).epsilon(0.01));
+        CHECK(std::fabs(worst.place.x) < 2 * w);
+        CHECK(worst.place.y == Approx(-0.75 * r * (rows - 1)));
+    }
+}
+
+// The moment is that of the rollers, friction included. The first face to break stands upright in the lowest row, near
+// an inner roller, whose own field adds 3.5 % to the stress of mid span.
+TEST_CASE("four-point bending: stress, first crack and strength over real rollers at 5 rows")
+{
+    const int rows = 5;
+    Case c = layer(27, rows, "four_point_bending");
+    c.test.outer_span = 24 * pitch;
+    c.test.inner_span = 12 * pitch;
+    BondSpec& bond = c.bonds[0];
+    bond.damping = 0.05;
+    bond.failure = "face";
+    bond.softening = "brittle";
+    bond.quadrature = "cross";
+    bond.tensile_strength = 100e6;
+    bond.cohesion = 400e6;
+    c.control.local_damping = 0.3;
+    c.test.roller_radius = 1.5 * r * rows;  // grains on edge stand 0.06 radii beside the crest: friction 0.1 holds
+    c.test.platen_speed = 0.06;
+    Built b = build(c, default_device());
+    const double w = 1.5 * r * rows, I = t * w * w * w / 12.0;
+    const Vec3 middle = specimen_extent(b.model, b.state).center();
+    begin(b);
+    const double dt = stable_step(b);
+    const auto first = [&] {
+        for (int i = 0; i < b.state.interfaces.size(); ++i) {
+            if (b.state.interfaces.failure_time[i] >= 0) return i;
+        }
+        return -1;
+    };
+    double nominal = 0;
+    SectionForce before;
+    Measurement m;
+    for (int i = 1; first() < 0 && i < 30000; ++i) {
+        const bool look = i % 1000 == 0;
+        step(b.model, b.state, dt, look);
+        if (first() < 0) before = at_mid_span(b, middle);
+        if (!look || before.moment < 0.5 * c.bonds[0].tensile_strength * I / (0.5 * w)) continue;
+        m = measure(b.experiment, b.model, b.state);
+        nominal = 0.25 * m.load * (c.test.outer_span - c.test.inner_span);
+        CHECK(m.stress == Approx(nominal * 0.5 * w / I).epsilon(1e-3));  // sigma = 3 P L_i/(t w^2)
+        const double ratio = -slope_over_rows(b.model, b.state, middle, 3.1 * pitch, rows) * I *
+                             honeycomb_inertia_ratio(rows) / before.moment;
+        CHECK(ratio == Approx(1.0).margin(5e-3));
+    }
+    const int face = first();
+    REQUIRE(face >= 0);
+    const Vec3 x = 0.5 * (b.state.bodies.start_position[b.state.interfaces.a[face]] +
+                          b.state.bodies.start_position[b.state.interfaces.b[face]]) -
+                   middle;
+    CHECK(x.y == Approx(-1.5 * r * (rows - 1) / 2));
+    CHECK(std::fabs(x.x) <= 0.5 * c.test.inner_span);
+    const double outer = before.moment * 0.5 * w / I,  // 3 P L_i/(t w^2) but for friction
+        axial = before.tension / (w * t * (1 - 1.0 / (3 * rows))), strength = c.bonds[0].tensile_strength;
+    WARN("first crack at x = " << x.x / pitch << " pitches; nominal stress " << outer << " Pa, of friction " << axial
+                               << " Pa, closed form at mid span " << strength * honeycomb_strength_ratio(rows));
+    CHECK(worst_corner(b.state, pitch, middle).traction ==
+          Approx(outer / honeycomb_strength_ratio(rows) + axial).epsilon(0.01));
+    CHECK(outer / honeycomb_strength_ratio(rows) + axial > 0.95 * strength);
+    CHECK(outer / honeycomb_strength_ratio(rows) + axial < strength);
 }
 
 TEST_CASE("notch factor: pure bending and the three-point values of ASTM E399 and of S/W = 8")
@@ -203,15 +384,6 @@ TEST_CASE("drop: first contact after sqrt(2 h/g), no force before, momentum of t
     CHECK(energy_ledger(b.model, b.state).relative_error() < 1e-3);
 }
 
-TEST_CASE("double cantilever beam: release rate is the derivative of the compliance, a quarter of that of free ends")
-{
-    const double EI = 3.0, b = 0.7, f = 0.4, a = 2.0, da = 1e-5;
-    const auto arms = [&](double length) { return DcbArms{length + f, f, EI, b}; };
-    const double slope = (arms(a + da).compliance() - arms(a - da).compliance()) / (2 * da);
-    CHECK(arms(a).release_rate(5.0) == Approx(25.0 / (2 * b) * slope).epsilon(1e-8));
-    CHECK(arms(a).release_rate(5.0) == Approx(0.25 * 25.0 * (a + f) * (a + f) / (b * EI)).epsilon(1e-12));
-}
-
 TEST_CASE("lengths that do not fit the specimen are refused, with the key that is wrong")
 {
     const auto wrong_key = [](Case c) {
@@ -243,6 +415,8 @@ TEST_CASE("lengths that do not fit the specimen are refused, with the key that i
     CHECK(wrong_key(c) == "test.crack_length");
     c.test.crack_length = 10e-3;
     CHECK(wrong_key(c) == "");
+    c.test.grip_length = 11e-3;  // beyond the crack
+    CHECK(wrong_key(c) == "test.grip_length");
     c = layer(4, 11, "uniaxial_tension");
     c.test.grip_length = 6e-3;
     CHECK(wrong_key(c) == "test.grip_length");
