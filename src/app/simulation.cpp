@@ -78,6 +78,7 @@ public:
             energy_floor_ +=
                 negligible_energy * state_.bodies.mass[i] * experiment_.wave_speed * experiment_.wave_speed;
         record_.first_momentum = total_momentum(model_, state_);
+        record_.cracks = CrackWatch(crack_scale(model_, state_));
         if (case_.output.checkpoint > 0.0) checkpoint();
         Ending ending{exit_code::done, "all stages done"};
         for (const Stage& stage : experiment_.stages) {
@@ -260,6 +261,7 @@ private:
         r.unbalanced_force_ratio = unbalanced_force_ratio(state_);
         r.platen_imbalance = m.platen_imbalance;
         count_broken(r);
+        r.cracks = crack_sums(state_);
         r.split_grains = record_.splits;
         folder_.append_history(r);
         record_.rows.push_back(r);
@@ -292,6 +294,7 @@ private:
             fragments_ = static_cast<std::int64_t>(std::set<std::int32_t>(cluster.begin(), cluster.end()).size()) -
                          (std::find(cluster.begin(), cluster.end(), -1) != cluster.end() ? 1 : 0);
             broken_ = broken;
+            record_.cracks.look(model_, state_);
         }
         r.fragments = fragments_;
     }
@@ -429,10 +432,9 @@ Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& fol
                 SnapshotFields& last_fields)
 {
     const Ending ending = Simulation(c, o, built, folder, record, last_fields).run();
-    if (last_fields.stress.empty()) {  // stopped before its first snapshot
-        last_fields.stress.resize(static_cast<std::size_t>(built.state.bodies.size()));
-        last_fields.cluster = bonded_clusters(built.state);
-    }
+    // of the state as it is now: the last snapshot may be older, and grains may have split since
+    last_fields.cluster = bonded_clusters(built.state);
+    record.cracks.look(built.model, built.state);
     monitor_quasi_static(record);
     return ending;
 }
