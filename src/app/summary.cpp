@@ -59,8 +59,7 @@ const char* kind_name(int mode, int cause)
 json loading_at(const RunRecord& record, double time)
 {
     const auto& rows = record.rows;
-    const auto after =
-        std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& r) { return r.time >= time; });
+    const auto after = std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& r) { return r.time >= time; });
     const HistoryRow& b = after == rows.end() ? rows.back() : *after;
     const HistoryRow& a = after == rows.begin() ? b : *(after - 1);
     const double share = b.time > a.time ? (time - a.time) / (b.time - a.time) : 0.0;

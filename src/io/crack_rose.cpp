@@ -39,15 +39,17 @@ struct RoseScale {
     double step = 1.0, radius = 1.0;  // of the rings, of the outermost
 };
 
-RoseScale scale_for(double largest)
+RoseScale scale_for(const CrackRose& rose)
 {
+    const double largest = *std::max_element(rose.share.begin(), rose.share.end());
     if (!(largest > 0.0)) return {};
     const double step = ring_step(largest);
     return {step, step * std::ceil(largest / step * 0.999)};
 }
 
-void draw_rose(const CrackRose& rose, const RoseScale& scale, const Frame& frame, Ink fill, Ink edge)
+void draw_rose(const CrackRose& rose, const Frame& frame, Ink fill, Ink edge)
 {
+    const RoseScale scale = scale_for(rose);
     // The window has the aspect of its frame, so that the rings are round.
     const double radius = scale.radius, width = (frame.right - frame.left) * page_aspect,
                  height = frame.top - frame.bottom;
@@ -87,7 +89,7 @@ void draw_rose(const CrackRose& rose, const RoseScale& scale, const Frame& frame
 
 std::string area_text(const char* where, const CrackRose& rose)
 {
-    return fmt::format("{}: {:.3g} mm\u00b2", where, 1e6 * rose.area);
+    return fmt::format("{}: {:.4g} mm\u00b2", where, 1e6 * rose.area);
 }
 
 }  // namespace
@@ -119,18 +121,16 @@ CrackRose crack_rose(const std::vector<CrackFace>& cracks, int mode)
 void plot_crack_orientation(const std::filesystem::path& stem, const std::vector<CrackFace>& cracks)
 {
     const CrackRose between = crack_rose(cracks, 0), through = crack_rose(cracks, 1);
-    const auto largest = [](const CrackRose& r) { return *std::max_element(r.share.begin(), r.share.end()); };
-    const RoseScale scale = scale_for(std::max(largest(between), largest(through)));
     draw_figure(stem, [&] {
         draw_title("Directions of the cracks in the xy plane",
                    "share of the crack area in each 10\u00b0; 0\u00b0 is x");
         if (through.area == 0.0) {
-            draw_rose(between, scale, {0.05, 0.95, 0.08, 0.90}, Ink::sky, Ink::blue);
+            draw_rose(between, {0.05, 0.95, 0.08, 0.90}, Ink::sky, Ink::blue);
             draw_page_text(0.5, 0.04, 0.5, 0.9, area_text("between grains", between));
             return;
         }
-        draw_rose(between, scale, {0.01, 0.50, 0.15, 0.87}, Ink::sky, Ink::blue);
-        draw_rose(through, scale, {0.50, 0.99, 0.15, 0.87}, Ink::orange, Ink::brown);
+        draw_rose(between, {0.01, 0.50, 0.15, 0.87}, Ink::sky, Ink::blue);
+        draw_rose(through, {0.50, 0.99, 0.15, 0.87}, Ink::green, Ink::grey);
         draw_page_text(0.255, 0.12, 0.5, 0.9, area_text("between grains", between));
         draw_page_text(0.745, 0.12, 0.5, 0.9, area_text("through grains", through));
     });

@@ -12,8 +12,8 @@ namespace grainfrac {
 
 namespace {
 
-/// Of the section: the load must go round such a crack, and in the coarsest specimens, five grains wide, it is more than
-/// one face. More is not always reached before the load drops: grains bridge a crack that looks whole.
+/// Of the section: the load must go round such a crack, and in the coarsest specimens, five grains wide, it is more
+/// than one face. More is not always reached before the load drops: grains bridge a crack that looks whole.
 constexpr double macroscopic_share = 0.25;
 /// Of the grain spacing: far above what faces move apart before the crack is large, far below a grain.
 constexpr double reach_share = 0.1;

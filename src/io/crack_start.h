@@ -11,8 +11,8 @@ namespace grainfrac {
 
 /// The face with which a crack began.
 struct CrackStart {
-    double time = 0.0;  ///< when it failed [s]
-    Vec3 point;         ///< its centroid, where it was soon after [m]
+    double time = 0.0;        ///< when it failed [s]
+    Vec3 point;               ///< its centroid, where it was soon after [m]
     int mode = 0, cause = 0;  ///< as in CrackFace
     int faces = 0;            ///< that failed at that time, this one among them
 };
@@ -35,8 +35,8 @@ CrackScale crack_scale(const Model& model, const State& state);
 /// Earliest crack that became macroscopic, of faces in the order of their times.
 std::optional<MacroscopicCrack> find_macroscopic_crack(const std::vector<CrackFace>& cracks, const CrackScale& scale);
 
-/// Looks at the cracks now and then during a run, so that points are those where faces broke and not where they lie at the
-/// end.
+/// Looks at the cracks now and then during a run, so that points are those where faces broke and not where they lie at
+/// the end.
 class CrackWatch {
 public:
     CrackWatch() = default;

@@ -63,7 +63,8 @@ CrackSums crack_sums(const State& state)
     }
     const ParallelBonds& parallels = state.parallels;
     for (int i = 0; i < parallels.size(); ++i) {
-        if (parallels.cause[i] != 0) sums.intergranular_area += std::numbers::pi * parallels.radius[i] * parallels.radius[i];
+        if (parallels.cause[i] != 0)
+            sums.intergranular_area += std::numbers::pi * parallels.radius[i] * parallels.radius[i];
     }
     return sums;
 }

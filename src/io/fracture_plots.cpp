@@ -12,21 +12,19 @@ namespace grainfrac {
 
 namespace {
 
-/// Cumulative mass over size as a stair, from `low` to `high`, all sizes as their logarithms.
+/// Cumulative mass [%] over the logarithm of the size as a stair, from the smallest piece to the largest.
 struct Stair {
     std::vector<double> x, y;
 };
 
-Stair stair_of(const SizeDistribution& d, const Range& range, double factor)
+Stair stair_of(const SizeDistribution& d, double factor)
 {
-    Stair s{{range.low}, {0.0}};
+    Stair s;
     for (std::size_t i = 0; i < d.diameter.size(); ++i) {
         const double x = std::log10(d.diameter[i] * factor);
         s.x.insert(s.x.end(), {x, x});
-        s.y.insert(s.y.end(), {s.y.back(), 100.0 * d.mass_up_to[i]});
+        s.y.insert(s.y.end(), {i == 0 ? 0.0 : s.y.back(), 100.0 * d.mass_up_to[i]});
     }
-    s.x.push_back(range.high);
-    s.y.push_back(s.y.back());
     return s;
 }
 
@@ -82,7 +80,7 @@ void plot_fragment_sizes(const std::filesystem::path& stem, const std::vector<Fr
     // Whole decades around the data: with less, the logarithmic axis may show no number at all.
     range = {std::floor(std::log10(range.low * prefix.factor) - 0.05),
              std::ceil(std::log10(range.high * prefix.factor) + 0.05)};
-    const Stair fine = stair_of(bodies, range, prefix.factor), coarse = stair_of(bonded, range, prefix.factor);
+    const Stair fine = stair_of(bodies, prefix.factor), coarse = stair_of(bonded, prefix.factor);
     const Frame frame{0.11, 0.95, 0.13, 0.88};
     draw_figure(stem, [&] {
         draw_title("Sizes of the fragments");
@@ -99,8 +97,8 @@ void plot_fragment_sizes(const std::filesystem::path& stem, const std::vector<Fr
 TransgranularShare transgranular_share(const HistoryTable& history)
 {
     const std::vector<double>&strain = history.column("nominal_strain"), &time = history.column("time_s"),
-    &between = history.column("intergranular_area_m2"), &through = history.column("transgranular_area_m2"),
-    &work = history.column("fracture_work_J"), &work_through = history.column("transgranular_fracture_work_J");
+          &between = history.column("intergranular_area_m2"), &through = history.column("transgranular_area_m2"),
+          &work = history.column("fracture_work_J"), &work_through = history.column("transgranular_fracture_work_J");
     TransgranularShare s;
     s.over_strain = std::any_of(strain.begin(), strain.end(), [](double v) { return v != 0.0; });
     s.x = s.over_strain ? strain : time;
@@ -122,6 +120,7 @@ void plot_transgranular_share(const std::filesystem::path& stem, const HistoryTa
     const Prefix prefix = prefix_for(x.high);
     for (double& v : s.x) v *= prefix.factor;
     x = Range{x.low * prefix.factor, x.high * prefix.factor}.widened(0.0);
+    x.high += 0.02 * (x.high - x.low);
     for (auto* values : {&s.of_area, &s.of_work}) {
         for (double& v : *values) v *= 100.0;
     }

@@ -32,7 +32,8 @@ std::string table(const char* what, const RunFacts& facts, const std::vector<Row
             name(column + suffix(unit));
         }
     });
-    std::string text = fmt::format("# grainfrac {}: {}\n# input: {}\n{}\n", facts.version, what, facts.input_hash, header);
+    std::string text =
+        fmt::format("# grainfrac {}: {}\n# input: {}\n{}\n", facts.version, what, facts.input_hash, header);
     for (const Row& row : rows) {
         std::string line;
         row.for_each_column([&](const char*, const char*, const auto& value) {

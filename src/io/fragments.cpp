@@ -30,7 +30,9 @@ Vec3 second_moments(const Vec3& inertia)
 Vec3 ellipsoid_axes(double mass, const Mat3& moments)
 {
     const Vec3 m = principal_values(moments);
-    const auto axis = [&](double moment) { return mass > 0.0 ? 2.0 * std::sqrt(5.0 * std::max(0.0, moment) / mass) : 0.0; };
+    const auto axis = [&](double moment) {
+        return mass > 0.0 ? 2.0 * std::sqrt(5.0 * std::max(0.0, moment) / mass) : 0.0;
+    };
     return {axis(m.x), axis(m.y), axis(m.z)};
 }
 

@@ -39,8 +39,8 @@ struct PieceShape {
     }
 };
 
-/// A grain, or a part of one. The tables in fragments.csv and results.h5 are both made from for_each_column: visit(name,
-/// unit, value), counts and ids as integers.
+/// A grain, or a part of one. The tables in fragments.csv and results.h5 are both made from for_each_column:
+/// visit(name, unit, value), counts and ids as integers.
 struct Fragment {
     std::int32_t id = 0;
     std::int32_t parent = -1;      ///< id of what it was split from, -1 if it is whole

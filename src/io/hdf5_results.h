@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// results.h5: history, snapshots, bonds, cracks, clusters and fragments in one file that can be read while it grows (schema:
-// docs/output.md).
+// results.h5: history, snapshots, bonds, cracks, clusters and fragments in one file that can be read while it grows
+// (schema: docs/output.md).
 #pragma once
 
 #include "io/fragments.h"

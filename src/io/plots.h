@@ -14,7 +14,7 @@ namespace grainfrac {
 
 /// Directions of the cracks' traces in the xy plane.
 struct CrackRose {
-    static constexpr int sectors = 18;     ///< of 10 degrees, over half a turn: a trace has no sense of direction
+    static constexpr int sectors = 18;    ///< of 10 degrees, over half a turn: a trace has no sense of direction
     std::array<double, sectors> share{};  ///< of the traced area; sector k is centred on k 10 degrees from x [-]
     double area = 0.0;                    ///< traced: of faces not within 45 degrees of the xy plane [m^2]
 };
@@ -36,7 +36,7 @@ void plot_fragment_sizes(const std::filesystem::path& stem, const std::vector<Fr
 
 /// How much of what is broken lies within grains, row by row; NaN while nothing is.
 struct TransgranularShare {
-    bool over_strain = true;               ///< x is the nominal strain [-]; false: the test has none, and x is the time [s]
+    bool over_strain = true;  ///< x is the nominal strain [-]; false: the test has none, and x is the time [s]
     std::vector<double> x;
     std::vector<double> of_area, of_work;  ///< [-]
 };
