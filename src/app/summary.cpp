@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/summary.h"
 
+#include "experiment/specimen.h"
 #include "model/validate.h"
 
 #include <fmt/format.h>
@@ -164,12 +165,18 @@ json energy_json(const Ledger& e, const RunRecord& record)
             {"largest_relative_error_before_peak", worst_before_peak}};
 }
 
+/// What the test says of its curve; where it names no modulus, the slope of its nominal stress over its nominal strain.
 std::vector<NamedResult> derived_results(const Experiment& e, const RunRecord& record)
 {
-    if (e.results == nullptr) return {};
     std::vector<CurvePoint> curve;
     for (const HistoryRow& r : record.rows) curve.push_back({r.time, r.load, r.nominal_strain, r.nominal_stress});
-    return e.results(e, curve);
+    std::vector<NamedResult> results = e.results != nullptr ? e.results(e, curve) : std::vector<NamedResult>{};
+    const bool has_modulus = std::any_of(results.begin(), results.end(), [](const NamedResult& r) {
+        return r.name.find("modulus") != std::string::npos;
+    });
+    if (!has_modulus && e.specimen.stress_area > 0.0 && e.specimen.length > 0.0)
+        results.push_back({"modulus_Pa", secant_modulus(curve)});
+    return results;
 }
 
 json quasi_static_json(const Built& b, const RunRecord& record)
