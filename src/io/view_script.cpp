@@ -35,8 +35,8 @@ CRACK_COLORS = {           # between grains, of the field cause
 }
 THROUGH_GRAINS = (0.0, 0.62, 0.45)
 CLUSTER_COLORS = [         # the largest first
-    (0.80, 0.82, 0.85), (0.34, 0.71, 0.91), (0.90, 0.62, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
-    (0.94, 0.89, 0.26), (0.00, 0.45, 0.70), (0.84, 0.37, 0.00), (0.60, 0.45, 0.30),
+    (0.80, 0.82, 0.85), (0.34, 0.71, 0.91), (0.90, 0.62, 0.00), (0.94, 0.89, 0.26), (0.80, 0.47, 0.65),
+    (0.00, 0.45, 0.70), (0.60, 0.45, 0.30), (0.72, 0.85, 0.55), (0.98, 0.75, 0.70),
 ]
 SMALL_CLUSTERS = (0.45, 0.45, 0.45)  # all others
 CRACK_EDGE_WIDTH = 4.0     # pixels
@@ -116,7 +116,7 @@ def color_by_categories(display, field, categories):
 
 def color_by_cluster(display, layer, view):
     count = int(layer.CellData["cluster"].GetRange()[1]) + 1
-    categories = [(k, "the largest" if k == 0 else "%d" % (k + 1), color) for k, color in enumerate(CLUSTER_COLORS)]
+    categories = [(k, "0, the largest" if k == 0 else "%d" % k, color) for k, color in enumerate(CLUSTER_COLORS)]
     color_by_categories(display, "cluster", categories[:max(1, count)]).NanColor = SMALL_CLUSTERS
     title = "clusters: %d" % count + ("\n(smaller ones dark)" if count > len(categories) else "")
     legend(display, "cluster", view, title, [0.80, 0.06], min(0.38, 0.06 * max(1, count)))
