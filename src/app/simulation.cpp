@@ -37,6 +37,8 @@ constexpr int steps_between_checks = 500;
 /// small fragments make small steps, but stresses change no faster.
 constexpr int steps_between_cleavage = 10;
 constexpr double share_of_transit = 0.5;
+/// Shorter time steps are logged from this share on.
+constexpr double logged_change = 0.01;
 /// A run whose energy account is off by this share has gone wrong: a stable one stays below 1e-3.
 constexpr double most_energy_error = 0.1;
 /// A residual below this share of E V (as m c_0^2) is round-off, whatever the other terms are: strains of 1e-9.
@@ -179,7 +181,9 @@ private:
         if (bound.body < 0) return;
         const double allowed = case_.control.time_step_safety * bound.with_damping;
         if (allowed >= dt_) return;
-        spdlog::info("step {}: time step {:.4g} -> {:.4g} s ({})", state_.step, dt_, allowed, bound.limiter);
+        const bool worth_a_line = allowed < (1.0 - logged_change) * dt_;
+        if (worth_a_line)
+            spdlog::info("step {}: time step {:.4g} -> {:.4g} s ({})", state_.step, dt_, allowed, bound.limiter);
         dt_ = allowed;
         record_.critical_step = bound.with_damping;
         record_.limiter = bound.limiter;
@@ -202,9 +206,7 @@ private:
         const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
         bool split = false;
         if (!due.empty()) {
-            std::vector<SplitRules> rules;
-            for (const CleavageRules& r : cleavage_) rules.push_back(r.split);
-            for (const SplitReport& r : split_grains(model_, state_, due, rules)) {
+            for (const SplitReport& r : split_grains(model_, state_, due)) {
                 if (r.status == SplitStatus::done) {
                     split = true;
                     ++record_.splits;
@@ -432,8 +434,12 @@ Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& fol
                 SnapshotFields& last_fields)
 {
     const Ending ending = Simulation(c, o, built, folder, record, last_fields).run();
-    // of the state as it is now: the last snapshot may be older, and grains may have split since
-    last_fields.cluster = bonded_clusters(built.state);
+    const auto bodies = static_cast<std::size_t>(built.state.bodies.size());
+    if (ending.code != exit_code::done) last_fields.cluster = bonded_clusters(built.state);
+    if (last_fields.stress.size() != bodies) {  // stopped before its first snapshot, or after a split since its last
+        last_fields.stress.assign(bodies, {});
+        last_fields.cleavage.assign(bodies, {});
+    }
     record.cracks.look(built.model, built.state);
     monitor_quasi_static(record);
     return ending;

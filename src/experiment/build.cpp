@@ -9,6 +9,7 @@
 #include "experiment/drop.h"
 #include "experiment/experiment.h"
 #include "experiment/laws.h"
+#include "experiment/pre_cut.h"
 #include "experiment/precrack.h"
 #include "experiment/uniaxial.h"
 #include "experiment/walls.h"
@@ -96,7 +97,8 @@ void check_snap_back(const Model& model, const State& state, const BondTable& ta
     std::vector<int> entry(worst.size(), -1);
     for (int i = 0; i < f.size(); ++i) {
         const InterfaceLaw law = model.interface_laws[f.law[i]];
-        if (law.softening != Softening::bilinear || law.failure == FailureUnit::unbreakable) continue;
+        const bool given = law.softening == Softening::bilinear && law.failure != FailureUnit::unbreakable;
+        if (!given || f.transgranular[i] != 0) continue;  // cleavage planes are stiff enough by their own rule
         Worst& w = worst[static_cast<std::size_t>(f.law[i])];
         const double scale = f.strength_factor[i] * f.strength_factor[i] / f.toughness_factor[i];
         w.needed_I =
@@ -207,7 +209,14 @@ Built build(const Case& c, Device device)
     };
     for (const PartSpec& p : c.parts) model.groups.push_back({p.name, material_index(p.material), false});
 
-    const std::vector<GrainSpec> grains = generate_grains(c);
+    std::vector<GrainSpec> grains = generate_grains(c);
+    std::vector<double> spacing = grain_spacing(model, grains);
+    model.nominal_length = *std::max_element(spacing.begin(), spacing.end());
+    const BondTable table(c, model);
+    if (std::any_of(c.materials.begin(), c.materials.end(),
+                    [](const MaterialSpec& m) { return !m.cleavage.planes.empty(); }))
+        built.cleavage = make_cleavage_rules(c, spacing, model);
+    const PreCut pre_cut(c, built.cleavage, grains);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         try {
             add_grain(model, state, grains[i]);
@@ -215,18 +224,16 @@ Built build(const Case& c, Device device)
             throw InputError(fmt::format("parts[{}]", grains[i].group), fmt::format("grain {}: {}", i, e.what()));
         }
     }
-    std::vector<double> spacing = grain_spacing(model, grains);
-    model.nominal_length = *std::max_element(spacing.begin(), spacing.end());
-
-    const BondTable table(c, model);
     const std::vector<Precrack> cracks = precracks(c, grains);
     bond_shared_faces(model, state, grains, c.simulation.seed, [&](int a, int b) -> const BondRule* {
         for (const Precrack& crack : cracks) {
             if (crack.cuts(grains[static_cast<std::size_t>(a)].site, grains[static_cast<std::size_t>(b)].site))
                 return nullptr;
         }
+        if (const BondRule* rule = pre_cut.rule_of(a, b)) return rule;
         return table.rule_of(state.bodies.group[a], state.bodies.group[b]);
     });
+    pre_cut.finish(state);
     check_bonds_exist(c, model, state, table);
     check_snap_back(model, state, table);
 
@@ -235,9 +242,6 @@ Built build(const Case& c, Device device)
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);
-    if (std::any_of(c.materials.begin(), c.materials.end(),
-                    [](const MaterialSpec& m) { return !m.cleavage.planes.empty(); }))
-        built.cleavage = make_cleavage_rules(c, spacing, model);
 
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     double strength = 0.0;

@@ -10,17 +10,17 @@ namespace grainfrac {
 
 namespace {
 
-CleavageLaw cleavage_law(const CleavageSpec& s, const MaterialSpec& m)
+CleavageLaw cleavage_law(const CleavageSpec& s, const MaterialSpec& m, double toughness)
 {
     CleavageLaw l;
-    l.toughness = s.toughness;
+    l.toughness = toughness;
     l.mode_ratio = s.mode_ratio;
     l.flaw_size = s.flaw_size;
     l.friction = s.friction;
     l.poisson_ratio = m.poisson_ratio;
     l.young_modulus = m.young_modulus;
     // Irwin: initiation and propagation ask for the same energy (14.7)
-    l.fracture_energy = s.toughness * s.toughness * (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
+    l.fracture_energy = toughness * toughness * (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
     l.flaw = s.flaw == "edge" ? FlawShape::edge : s.flaw == "penny" ? FlawShape::penny : FlawShape::through;
     l.criterion = s.criterion == "shetty"   ? CleavageCriterion::shetty
                   : s.criterion == "energy" ? CleavageCriterion::energy
@@ -30,17 +30,24 @@ CleavageLaw cleavage_law(const CleavageSpec& s, const MaterialSpec& m)
 }
 
 /// The new surface starts to soften from the traction that it inherits; the onset surface serves points that start
-/// pressed and unsheared.
+/// pressed and unsheared. A surface that is there from the start has to say itself when it softens: at the ellipse in
+/// tension, at C sigma_th plus the friction of closed flaws under pressure (which stands for the other criteria too).
 InterfaceLaw surface_law(const CleavageSpec& s, const CleavageLaw& c)
 {
     InterfaceLaw l{};
     l.tensile_strength = c.threshold_stress();
     l.friction = l.residual_friction = s.residual_friction;
     l.cohesion = std::max(s.mode_ratio, s.residual_friction) * l.tensile_strength;
+    l.onset = OnsetSurface::mohr_coulomb;
+    if (s.new_surface == "pre_cut") {
+        l.onset = OnsetSurface::quadratic;
+        l.cohesion = s.mode_ratio * l.tensile_strength;
+        l.friction = s.friction;
+        l.residual_friction = std::min(s.residual_friction, s.friction);  // else damage could release energy
+    }
     l.fracture_energy_I = s.fracture_energy.value_or(c.fracture_energy);
     l.fracture_energy_II = s.fracture_energy_II.value_or(l.fracture_energy_I / (s.mode_ratio * s.mode_ratio));
     l.mixed_mode_exponent = 2.0;
-    l.onset = OnsetSurface::mohr_coulomb;
     l.softening = Softening::bilinear;
     l.failure = FailureUnit::point;
     l.mixed_mode = MixedMode::benzeggagh_kenane;
@@ -55,6 +62,25 @@ double surface_stiffness(double of_grain, const CleavageLaw& c, const InterfaceL
     return std::max(of_grain, 5.0 * t * t / surface.fracture_energy_I);
 }
 
+/// What a split along planes of this law makes.
+SplitRules split_rules(const CleavageSpec& s, const CleavageLaw& c, double grain_stiffness, Model& model)
+{
+    SplitRules r;
+    const InterfaceLaw surface = surface_law(s, c);
+    r.cohesive = s.new_surface != "free";
+    r.law = model.interface_laws.size();
+    model.interface_laws.host().push_back(surface);
+    r.normal_stiffness = s.normal_stiffness.value_or(surface_stiffness(grain_stiffness, c, surface));
+    r.shear_stiffness = r.normal_stiffness;
+    r.damping = s.damping;
+    r.least_volume = s.min_fragment_volume;
+    r.least_section = s.min_section;
+    r.least_inradius = s.min_inradius;
+    r.most_generations = static_cast<std::int32_t>(s.max_generation);
+    return r;
+}
+
+/// The gate serves the planes that split most easily.
 CleavageGate gate_of(const CleavageSpec& s, const CleavageLaw& l)
 {
     CleavageGate g;
@@ -79,25 +105,15 @@ std::vector<CleavageRules> make_cleavage_rules(const Case& c, const std::vector<
         const CleavageSpec& s = m.cleavage;
         if (s.planes.empty()) continue;
         CleavageRules& r = rules[g];
-        const CleavageLaw law = cleavage_law(s, m);
         const double side = s.slabs && part.generator == "hexagonal_prisms" ? part.side : 0.0;
-        for (const std::string& planes : s.planes)
-            r.families.push_back({law, cleavage_planes(parse_crystal_planes(planes), side)});
-        r.gate = gate_of(s, law);
+        for (std::size_t k = 0; k < s.planes.size(); ++k) {
+            const CleavageLaw law = cleavage_law(s, m, s.toughness.size() == 1 ? s.toughness[0] : s.toughness[k]);
+            r.families.push_back({law, cleavage_planes(parse_crystal_planes(s.planes[k]), side),
+                                  split_rules(s, law, m.young_modulus / spacing[g], model)});
+        }
+        r.gate = gate_of(s, cleavage_law(s, m, *std::min_element(s.toughness.begin(), s.toughness.end())));
         r.surface_flaws = s.flaw_site == "surface";
         r.pause = spacing[g] / std::sqrt(m.young_modulus / m.density);
-        r.split.cohesive = s.new_surface == "cohesive";
-        r.split.law = model.interface_laws.size();
-        const InterfaceLaw surface = surface_law(s, law);
-        model.interface_laws.host().push_back(surface);
-        r.split.normal_stiffness =
-            s.normal_stiffness.value_or(surface_stiffness(m.young_modulus / spacing[g], law, surface));
-        r.split.shear_stiffness = r.split.normal_stiffness;
-        r.split.damping = s.damping;
-        r.split.least_volume = s.min_fragment_volume;
-        r.split.least_section = s.min_section;
-        r.split.least_inradius = s.min_inradius;
-        r.split.most_generations = static_cast<std::int32_t>(s.max_generation);
     }
     return rules;
 }

@@ -124,23 +124,34 @@ GrainCleavage worst_plane(const Model& model, const State& state, int body, cons
     const Quat crystal = state.bodies.crystal[body];
     const bool whole = state.bodies.generation[body] == 0;
     GrainCleavage found;
+    double most_due = 1.0;
+    int candidate = -1;
     for (std::size_t f = 0; f < rules.families.size(); ++f) {
         const CleavageFamily& family = rules.families[f];
-        for (const Plane& candidate : family.planes) {
-            if (!whole && candidate.offset != 0.0) continue;  // slabs are places within the undisturbed grain
-            const Plane plane{rotate(crystal, candidate.normal), candidate.offset};
+        for (const Plane& in_crystal : family.planes) {
+            ++candidate;
+            if (!whole && in_crystal.offset != 0.0) continue;  // slabs are places within the undisturbed grain
+            const Plane plane{rotate(crystal, in_crystal.normal), in_crystal.offset};
             const PlaneCut cut = cut_by_plane(grain.faces, plane, grain.size);
             if (cut.status != CutStatus::ok) continue;
             const PlaneTractions t = plane_tractions(cut, grain.motion, loads);
             const Cleavage c = rules.surface_flaws
                                    ? surface_flaw(family.law, t.field, cut.section.corners, cut.section.count)
                                    : buried_flaw(family.law, t.field, cut.section.corners, cut.section.count);
-            if (c.f <= found.worst.f) continue;
-            found.worst = c;
-            found.worst.where = place.to_space(c.where);
-            found.family = static_cast<std::int32_t>(f);
             const Vec3 n = rotate(place.orientation, plane.normal);
-            found.plane = {n, plane.offset + dot(n, place.position)};
+            const Plane in_space{n, plane.offset + dot(n, place.position)};
+            if (c.f > found.worst.f) {
+                found.worst = c;
+                found.worst.where = place.to_space(c.where);
+                found.family = static_cast<std::int32_t>(f);
+                found.plane = in_space;
+            }
+            const bool first = found.due.body < 0;
+            if ((first ? c.f >= most_due : c.f > most_due) &&
+                (state.bodies.saturated[body] & candidate_bit(candidate)) == 0) {
+                most_due = c.f;
+                found.due = {body, in_space, family.split, candidate, c.K_I, c.K_II};
+            }
         }
     }
     return found;
@@ -196,18 +207,10 @@ std::vector<SplitRequest> splits_due(const State& state, const std::vector<Grain
 {
     std::vector<SplitRequest> due;
     for (int i = 0; i < state.bodies.size(); ++i) {
-        const GrainCleavage& c = found[static_cast<std::size_t>(i)];
-        if (c.worst.f < 1.0) continue;
-        const CleavageRules& r = *rules_of(state, i, rules);
+        const SplitRequest& request = found[static_cast<std::size_t>(i)].due;
+        if (request.body < 0) continue;
         const double last = state.bodies.split_time[i];
-        if (last >= 0.0 && state.time - last < r.pause) continue;
-        if (state.bodies.saturated[i] != 0) continue;
-        SplitRequest request;
-        request.body = i;
-        request.plane = c.plane;
-        request.rules = state.bodies.group[i];
-        request.K_I = c.worst.K_I;
-        request.K_II = c.worst.K_II;
+        if (last >= 0.0 && state.time - last < rules_of(state, i, rules)->pause) continue;
         due.push_back(request);
     }
     return due;

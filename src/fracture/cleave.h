@@ -15,6 +15,7 @@ namespace grainfrac {
 struct CleavageFamily {
     CleavageLaw law;
     std::vector<Plane> planes;  ///< crystal frame, offsets from the grain's centre [m]
+    SplitRules split;           ///< of grains that split along it
 };
 
 /// How grains of one part cleave.
@@ -23,14 +24,14 @@ struct CleavageRules {
     CleavageGate gate;
     bool surface_flaws = true;  ///< flaws at the edge of the plane, where they are worst; false: in its middle
     double pause = 0.0;         ///< between splits of one lineage: one elastic transit [s]
-    SplitRules split;
 };
 
 /// How near a grain is to cleaving.
 struct GrainCleavage {
     Cleavage worst;            ///< where in space; f = 0 if the gate held it back
     std::int32_t family = -1;  ///< of the worst plane
-    Plane plane;               ///< in space
+    Plane plane;               ///< the worst, in space
+    SplitRequest due;          ///< along the worst of the planes that were not refused before; body -1: none has f >= 1
 };
 
 /// The worst plane of every grain; entries of walls, and of grains that the gate holds back, are empty. `stress`: of

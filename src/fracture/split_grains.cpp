@@ -74,31 +74,18 @@ struct Parts {
     CutResult cut;  // in the frame of the body
 };
 
-Parts cut_grain(const Model& model, const State& state, const SplitRequest& r, const SplitRules& rules)
+Parts cut_grain(const Model& model, const State& state, const SplitRequest& r)
 {
     const Bodies& b = state.bodies;
     const Polyhedron& grain = model.grain_shapes.at(static_cast<std::size_t>(r.body));
     Parts p;
-    if (b.generation[r.body] >= rules.most_generations) {
+    if (b.generation[r.body] >= r.rules.most_generations) {
         p.status = SplitStatus::generation;
         return p;
     }
     const Vec3 n = rotate_back(b.orientation[r.body], r.plane.normal);
     p.cut = cut_exact(grain, {n, r.plane.offset - dot(r.plane.normal, b.position[r.body])});
-    if (p.cut.status == CutStatus::all_inside || p.cut.status == CutStatus::all_outside) return p;
-    if (p.cut.status != CutStatus::ok) {
-        p.status = SplitStatus::degenerate;
-        return p;
-    }
-    const double rho = model.shapes.radius[b.shape[r.body]];
-    p.status = SplitStatus::done;
-    if (norm(area_vector(p.cut.section)) < rules.least_section * surface_area(grain))
-        p.status = SplitStatus::small_section;
-    for (const Polyhedron* part : {&p.cut.inside, &p.cut.outside}) {
-        if (inscribed_ball(*part).radius < rules.least_inradius * rho) p.status = SplitStatus::thin_part;
-        if (mass_properties(*part).volume < rules.least_volume * b.origin_volume[r.body])
-            p.status = SplitStatus::small_part;
-    }
+    p.status = why_not_parted(grain, p.cut, model.shapes.radius[b.shape[r.body]], b.origin_volume[r.body], r.rules);
     return p;
 }
 
@@ -139,6 +126,7 @@ void make_bodies(Model& model, State& state, Parting& p, const CutResult& cut)
     become_part(model, state, fresh, p, cut.outside, density);
     become_part(model, state, parent, p, cut.inside, density);
     at(b.split_time, fresh) = at(b.split_time, parent) = state.time;
+    at(b.saturated, fresh) = at(b.saturated, parent) = 0;  // other shapes, other limits
     at(b.generation, parent) = b.generation[fresh];
     at(b.parent, parent) = b.parent[fresh];
     at(b.id, parent) = next_id + 1;
@@ -581,7 +569,7 @@ void bring_up_to_date(const Model& model, State& state)
 }
 
 /// The traction that the plane carried: §12, from the loads on part 1 as they are shared out now.
-CutSurface cut_surface(const State& state, const Parting& p, const SplitRules& rules)
+CutSurface cut_surface(const State& state, const Parting& p)
 {
     const Bodies& b = state.bodies;
     const int one = p.part_1, two = p.request.body;
@@ -603,7 +591,7 @@ CutSurface cut_surface(const State& state, const Parting& p, const SplitRules& r
     CutSurface s;
     s.a = two;
     s.b = one;
-    s.rules = &rules;
+    s.rules = &p.request.rules;
     s.K_I = p.request.K_I;
     s.K_II = p.request.K_II;
     s.polygon = p.section;
@@ -616,7 +604,7 @@ CutSurface cut_surface(const State& state, const Parting& p, const SplitRules& r
 
     // it acts on part 2; the quadrature integrates its products with the arms exactly
     const TractionField field = fit_tractions(m, {-F, -M});
-    s.points = quadrature(s.polygon, rules.quadrature);
+    s.points = quadrature(s.polygon, s.rules->quadrature);
     for (const QuadraturePoint& q_point : s.points) s.traction.push_back(field.at(q_point.position));
     return s;
 }
@@ -644,13 +632,25 @@ const char* to_string(SplitStatus status)
     return "";
 }
 
-SplitStatus why_not_split(const Model& model, const State& state, const SplitRequest& request, const SplitRules& rules)
+SplitStatus why_not_parted(const Polyhedron& grain, const CutResult& cut, double radius, double whole_volume,
+                           const SplitRules& rules)
 {
-    return cut_grain(model, state, request, rules).status;
+    if (cut.status == CutStatus::all_inside || cut.status == CutStatus::all_outside) return SplitStatus::outside;
+    if (cut.status != CutStatus::ok) return SplitStatus::degenerate;
+    for (const Polyhedron* part : {&cut.inside, &cut.outside}) {
+        if (mass_properties(*part).volume < rules.least_volume * whole_volume) return SplitStatus::small_part;
+        if (inscribed_ball(*part).radius < rules.least_inradius * radius) return SplitStatus::thin_part;
+    }
+    if (norm(area_vector(cut.section)) < rules.least_section * surface_area(grain)) return SplitStatus::small_section;
+    return SplitStatus::done;
 }
 
-std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<SplitRequest> requests,
-                                      const std::vector<SplitRules>& rules)
+SplitStatus why_not_split(const Model& model, const State& state, const SplitRequest& request)
+{
+    return cut_grain(model, state, request).status;
+}
+
+std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<SplitRequest> requests)
 {
     std::sort(requests.begin(), requests.end(),
               [](const SplitRequest& x, const SplitRequest& y) { return x.body < y.body; });
@@ -665,7 +665,7 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
         SplitReport report;
         report.body = r.body;
         report.parent_id = b.id[r.body];
-        Parts parts = cut_grain(model, state, r, rules.at(static_cast<std::size_t>(r.rules)));
+        Parts parts = cut_grain(model, state, r);
         report.status = parts.status;
         if (parts.status == SplitStatus::done) {
             Parting p;
@@ -682,7 +682,8 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
             cuts.push_back(std::move(parts.cut));
             report_of.push_back(reports.size());
         } else {
-            at(state.bodies.saturated, r.body) = 1;
+            const bool for_good = parts.status == SplitStatus::generation;
+            at(state.bodies.saturated, r.body) |= for_good ? ~std::int64_t{0} : candidate_bit(r.candidate);
         }
         reports.push_back(report);
     }
@@ -712,8 +713,7 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
 
     std::vector<CutSurface> surfaces;
     for (std::size_t k = 0; k < partings.size(); ++k) {
-        const SplitRules& r = rules.at(static_cast<std::size_t>(partings[k].request.rules));
-        if (r.cohesive) surfaces.push_back(cut_surface(state, partings[k], r));
+        if (partings[k].request.rules.cohesive) surfaces.push_back(cut_surface(state, partings[k]));
     }
     if (!surfaces.empty()) {
         interfaces.add(surfaces);

@@ -2,10 +2,13 @@
 // Grains cut in two along a plane: bodies, boundary interfaces and contacts of the parts, and the new surface.
 #pragma once
 
+#include "geometry/cut.h"
 #include "geometry/quadrature.h"
 #include "model/model.h"
 #include "model/state.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace grainfrac {
@@ -28,7 +31,8 @@ struct SplitRules {
 struct SplitRequest {
     std::int32_t body = -1;
     Plane plane;
-    std::int32_t rules = 0;        ///< into the rules that are given
+    SplitRules rules;
+    int candidate = 0;             ///< which of the grain's planes this is: what a refusal is remembered under
     double K_I = 0.0, K_II = 0.0;  ///< of the flaw, for the results [Pa sqrt(m)]
 };
 
@@ -52,15 +56,26 @@ struct SplitReport {
     double inserted_energy = 0.0;  ///< W_ins: what the new surface holds without work done [J]
 };
 
+/// Planes of a grain that refusals can be told apart of; those beyond share the last.
+inline constexpr int most_candidates = 63;
+/// The bit of Bodies::saturated for a candidate plane.
+inline std::int64_t candidate_bit(int candidate)
+{
+    return std::int64_t{1} << std::min(candidate, most_candidates - 1);
+}
+
+/// Whether a grain (sharp, dilated by `radius`) may be parted by this cut; `done` if so. `whole_volume`: of the grain
+/// at the start [m^3].
+SplitStatus why_not_parted(const Polyhedron& grain, const CutResult& cut, double radius, double whole_volume,
+                           const SplitRules& rules);
 /// Whether the grain may be split by the plane; what `split_grains` would report.
-SplitStatus why_not_split(const Model& model, const State& state, const SplitRequest& request, const SplitRules& rules);
+SplitStatus why_not_split(const Model& model, const State& state, const SplitRequest& request);
 
 /// Split grains (at most one plane per body; in the order of the bodies, whatever the order of the requests) and bring
 /// the forces up to date, so that the next step finds everything as after a step. Mass, first moment, momenta and
 /// kinetic energy are kept; a cohesive surface also keeps the accelerations.
 /// Sources: Saleme Ruiz 2016, ch. 3, for the cut; cohesive surface with inherited traction: Papoulia, Sam & Vavasis
 /// 2003.
-std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<SplitRequest> requests,
-                                      const std::vector<SplitRules>& rules);
+std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<SplitRequest> requests);
 
 }  // namespace grainfrac

@@ -62,7 +62,7 @@ int add_grain(Model& model, State& state, const GrainSpec& g)
     at(b.group, i) = g.group;
     at(b.wall, i) = -1;
     at(b.crystal, i) = conjugate(frame.axes) * g.crystal;
-    at(b.origin, i) = b.id[i];
+    at(b.origin, i) = g.origin >= 0 ? g.origin : b.id[i];
     at(b.parent, i) = -1;
     at(b.split_time, i) = -1.0;
     at(b.origin_volume, i) = b.mass[i] / density;

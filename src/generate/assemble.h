@@ -20,9 +20,10 @@ struct GrainSpec {
     Vec3 site;                     ///< generator point of its cell; the distance of sites sets bond stiffness [m]
     double dilation_radius = 0.0;  ///< wanted; reduced where the grain is too small for it [m]
     std::int32_t material = 0, group = 0;
-    Quat crystal;           ///< crystal to space [-]
-    Vec3 velocity;          ///< [m/s]
-    Vec3 angular_velocity;  ///< [rad/s]
+    std::int32_t origin = -1;  ///< place in the list of the first grain cut from the same one; -1: none was cut
+    Quat crystal;              ///< crystal to space [-]
+    Vec3 velocity;             ///< [m/s]
+    Vec3 angular_velocity;     ///< [rad/s]
 };
 
 /// Body in its principal frame with an eroded, dilated contact shape. Returns its index. Throws std::invalid_argument

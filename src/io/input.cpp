@@ -283,6 +283,10 @@ private:
     }
     void get(const Node& value, const std::string& path, std::vector<double>& member, const Facts& facts)
     {
+        if (value.type != Node::Type::array) {  // one value is a list of one
+            member.assign(1, 0.0);
+            return get(value, path, member.front(), facts);
+        }
         if (!is_array_of(value, path, value.children.size(), expected(member, facts))) return;
         if (value.children.empty()) return fail(path, "is empty; must be " + expected(member, facts));
         member.assign(value.children.size(), 0.0);

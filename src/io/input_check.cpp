@@ -110,6 +110,12 @@ private:
                     fail(fmt::format("{}.cleavage.planes[{}]", joined("materials", m.name), k), e.what());
                 }
             }
+            const std::string toughness = joined("materials", m.name) + ".cleavage.toughness";
+            const std::size_t count = m.cleavage.toughness.size(), families = m.cleavage.planes.size();
+            if (families > 0 && count > 1 && count != families && right(toughness)) {
+                fail(toughness,
+                     fmt::format("has {} values; must have one for all planes, or {} as `planes`", count, families));
+            }
             material_names_.push_back(m.name);
         }
         for (std::size_t i = 0; i < c_.parts.size(); ++i) {

@@ -96,7 +96,7 @@ std::string expected(const std::array<double, 2>&, const Facts& facts)
 }
 std::string expected(const std::vector<double>&, const Facts& facts)
 {
-    return fmt::format("an array such as [{0}, {0}]", example(facts));
+    return fmt::format("{0}, or an array such as [{0}, {0}]", example(facts));
 }
 std::string expected(const std::vector<std::string>&, const Facts&)
 {

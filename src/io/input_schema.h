@@ -83,7 +83,7 @@ void describe(V& v, SimulationSpec& s)
 template <class V>
 void describe(V& v, CleavageSpec& s)
 {
-    const Condition cohesive{s.new_surface == "cohesive", "new_surface = \"cohesive\""};
+    const Condition cohesive{s.new_surface != "free", "new_surface = \"cohesive\" or \"pre_cut\""};
     v("planes", s.planes,
       {.required = always,
        .meaning = "cleavage planes in the grain's crystal frame, Miller-Bravais: braces for all planes that symmetry "
@@ -92,7 +92,10 @@ void describe(V& v, CleavageSpec& s)
     v("slabs", s.slabs,
       {.meaning = "planes beside the grain's centre too: the short diagonals of a whole hexagonal prism"});
     v("toughness", s.toughness,
-      {.unit = "Pa m^0.5", .range = positive, .required = always, .meaning = "K_c of the planes"});
+      {.unit = "Pa m^0.5",
+       .range = positive,
+       .required = always,
+       .meaning = "K_c: one for all planes, or one for each entry of `planes`"});
     v("mode_ratio", s.mode_ratio,
       {.range = positive, .meaning = "C: toughness in shear over K_c", .source = "Saleme Ruiz 2016 (3.25)"});
     v("criterion", s.criterion,
@@ -121,9 +124,10 @@ void describe(V& v, CleavageSpec& s)
        .used = {s.gate == "hydrostatic", "gate = \"hydrostatic\""},
        .meaning = "tension positive"});
     v("new_surface", s.new_surface,
-      {.words = "cohesive | free",
+      {.words = "cohesive | free | pre_cut",
        .meaning = "cohesive: it keeps the traction that the plane carried and softens; free: it is gone at once, which "
-                  "costs no energy and kicks the fragments"});
+                  "costs no energy and kicks the fragments; pre_cut: every candidate plane is an interface from the "
+                  "start, and no grain is split in the run"});
     v("fracture_energy", s.fracture_energy,
       {.unit = "J/m^2",
        .range = positive,

@@ -175,7 +175,7 @@ std::string kind(const std::array<double, 2>&, const Facts& f)
 }
 std::string kind(const std::vector<double>&, const Facts& f)
 {
-    return "list of " + kind(double{}, f);
+    return kind(double{}, f) + ", or a list";
 }
 std::string kind(const std::vector<std::string>&, const Facts&)
 {

@@ -36,7 +36,7 @@ struct Bodies {
     Buffer<std::int32_t> parent;      ///< id of what it was split from, -1 if it is whole [-]
     Buffer<std::int32_t> generation;  ///< number of splits behind it [-]
     Buffer<double> split_time;        ///< of the last split behind it, -1 if it is whole [s]
-    Buffer<std::int32_t> saturated;   ///< 1: a split was due and would have made too small a part [-]
+    Buffer<std::int64_t> saturated;   ///< bit k: a split along candidate plane k was refused [-]
     Buffer<double> origin_volume;     ///< of the sharp grain that it was at the start; 0 for walls [m^3]
 
     int size() const { return position.size(); }

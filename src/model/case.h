@@ -24,7 +24,7 @@ struct SimulationSpec {
 struct CleavageSpec {
     std::vector<std::string> planes;           ///< Miller-Bravais: "{10-10}", "{11-20}", "(0001)", ...
     bool slabs = true;                         ///< also the planes of 2.7 beside the centre, of whole prisms
-    double toughness = 0.0;                    ///< K_c [Pa sqrt(m)]
+    std::vector<double> toughness;             ///< K_c, one for all or one for each of `planes` [Pa sqrt(m)]
     double mode_ratio = 0.816;                 ///< C [-]
     std::string criterion = "ellipse";         ///< ellipse | shetty | energy
     std::string flaw = "through";              ///< through | edge | penny
@@ -34,7 +34,7 @@ struct CleavageSpec {
     double friction = 0.3;                     ///< of closed flaws [-]
     std::string gate = "principal";            ///< principal | hydrostatic | none
     double hydrostatic_threshold = 0.0;        ///< gate = hydrostatic, tension positive [Pa]
-    std::string new_surface = "cohesive";      ///< cohesive | free
+    std::string new_surface = "cohesive";      ///< cohesive | free | pre_cut
     std::optional<double> fracture_energy;     ///< G_I of the new surface [J/m^2]; auto: K_c^2 (1 - nu^2)/E
     std::optional<double> fracture_energy_II;  ///< [J/m^2]; auto: G_I/C^2
     double residual_friction = 0.4;            ///< [-]

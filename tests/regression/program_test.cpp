@@ -41,6 +41,23 @@ std::string text_of(const fs::path& file)
     return s.str();
 }
 
+/// Of the last whole line of history.csv; 0 if it has none yet.
+double last_value(const std::string& history, const std::string& column)
+{
+    std::istringstream lines(history.substr(0, history.rfind('\n') == history.npos ? 0 : history.rfind('\n')));
+    std::string line, names, last;
+    while (std::getline(lines, line)) {
+        if (line.empty() || line[0] == '#') continue;
+        (names.empty() ? names : last) = line;
+    }
+    std::istringstream n(names), v(last);
+    std::string name, value;
+    while (std::getline(n, name, ',') && std::getline(v, value, ',')) {
+        if (name == column) return std::stod(value);
+    }
+    return 0.0;
+}
+
 /// A folder of its own for each case, removed at the end.
 struct Workplace {
     fs::path folder;
@@ -221,6 +238,10 @@ TEST_CASE("check reports without running")
 TEST_CASE("SIGTERM and SIGINT stop the run after a checkpoint")
 {
     for (const int signal : {SIGTERM, SIGINT}) {
+        // one of them after grains were split: the last snapshot then knows less bodies than there are
+        const bool splits = signal == SIGINT;
+        const std::string file =
+            splits ? (source / "examples/brazilian_cleavage/brazilian_cleavage.toml").string() : example;
         const Workplace w;
         std::fflush(stdout);  // or the child prints it again
         const pid_t child = fork();
@@ -228,19 +249,25 @@ TEST_CASE("SIGTERM and SIGINT stop the run after a checkpoint")
             if (chdir(w.folder.c_str()) != 0) _exit(99);
             std::freopen("out.txt", "w", stdout);
             std::freopen("err.txt", "w", stderr);
-            execl(program.c_str(), program.c_str(), example.c_str(), "--threads", "1", static_cast<char*>(nullptr));
+            const char* set = splits ? "materials.sic.cleavage.toughness='0.2 MPa m^0.5'" : "simulation.seed=1";
+            execl(program.c_str(), program.c_str(), file.c_str(), "--out", "result", "--threads", "1", "--set", set,
+                  static_cast<char*>(nullptr));
             _exit(98);
         }
-        for (int i = 0; i < 400 && !fs::exists(w.folder / "brazilian.out/history.csv"); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        const auto ready = [&] {
+            const std::string history = text_of(w.folder / "result/history.csv");
+            return splits ? last_value(history, "split_grains") > 1.0 : !history.empty();
+        };
+        for (int i = 0; i < 600 && !ready(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         REQUIRE(kill(child, signal) == 0);
         int status = 0;
         REQUIRE(waitpid(child, &status, 0) == child);
         REQUIRE(WIFEXITED(status));
         CHECK(WEXITSTATUS(status) == 128 + signal);
-        CHECK_FALSE(fs::is_empty(w.folder / "brazilian.out/checkpoint"));
-        CHECK(w.summary("brazilian.out")["exit"]["code"] == 128 + signal);
+        CHECK_FALSE(fs::is_empty(w.folder / "result/checkpoint"));
+        CHECK(w.summary("result")["exit"]["code"] == 128 + signal);
+        if (splits) CHECK(w.summary("result")["splits"]["number"] > 0);
     }
 }
 

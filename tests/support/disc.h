@@ -62,6 +62,21 @@ inline void run_steps(Built& b, double dt, int steps)
     for (int i = 0; i < steps; ++i) step(b.model, b.state, dt);
 }
 
+/// The whole experiment turned by q about the origin; before it begins.
+inline void turn_all(Built& b, const Quat& q)
+{
+    Bodies& s = b.state.bodies;
+    for (int i = 0; i < s.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        s.position.host()[k] = s.start_position.host()[k] = rotate(q, s.position[i]);
+        s.orientation.host()[k] = s.start_orientation.host()[k] = normalized(q * s.orientation[i]);
+    }
+    for (Stage& stage : b.experiment.stages) {
+        for (Vec3& v : stage.wall_velocity) v = rotate(q, v);
+    }
+    b.experiment.specimen.load_direction = rotate(q, b.experiment.specimen.load_direction);
+}
+
 /// Interfaces that failed, in the order of their times.
 inline std::vector<int> break_sequence(const State& s)
 {

@@ -30,21 +30,6 @@ Stresses on_cross_diameter(double s, double alpha, double q)
     return {2 * q / std::numbers::pi * (a - b), -2 * q / std::numbers::pi * (a + b)};
 }
 
-/// The whole experiment turned by q about the origin.
-void turn_all(Built& b, const Quat& q)
-{
-    Bodies& s = b.state.bodies;
-    for (int i = 0; i < s.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        s.position.host()[k] = s.start_position.host()[k] = rotate(q, s.position[i]);
-        s.orientation.host()[k] = s.start_orientation.host()[k] = normalized(q * s.orientation[i]);
-    }
-    for (Stage& stage : b.experiment.stages) {
-        for (Vec3& v : stage.wall_velocity) v = rotate(q, v);
-    }
-    b.experiment.specimen.load_direction = rotate(q, b.experiment.specimen.load_direction);
-}
-
 Case coarse_case()
 {
     Case c = disc_case(1.1e-3, false);

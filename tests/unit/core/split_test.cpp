@@ -140,10 +140,11 @@ TEST_CASE("a split keeps mass, first moment, inertia, momenta and kinetic energy
         start(a.model, a.state);
         const Totals before = totals(a.state, {0});
         SplitRequest r;
+        r.rules = easy_rules();
         r.body = 0;
         r.plane.normal = normalized(random_vector(draw));
         r.plane.offset = dot(r.plane.normal, a.state.bodies.position[0]) + 0.1 * random_vector(draw).x;
-        const auto report = split_grains(a.model, a.state, {r}, {easy_rules()});
+        const auto report = split_grains(a.model, a.state, {r});
         REQUIRE(report.size() == 1);
         REQUIRE(report[0].status == SplitStatus::done);
         REQUIRE(why_not_valid(a.model, a.state).empty());
@@ -175,10 +176,11 @@ TEST_CASE("a split in a loaded, spinning block: no jump of forces, accelerations
                    w_rate = spin_rate(a.state, grain);
         const Ledger before = energy_ledger(a.model, a.state);
         SplitRequest r;
+        r.rules = easy_rules();
         r.body = grain;
         r.plane.normal = normalized(random_vector(draw));
         r.plane.offset = dot(r.plane.normal, c) + 0.2 * random_vector(draw).x;
-        const auto report = split_grains(a.model, a.state, {r}, {easy_rules()});
+        const auto report = split_grains(a.model, a.state, {r});
         REQUIRE(report[0].status == SplitStatus::done);
         REQUIRE(why_not_valid(a.model, a.state).empty());
         double scale = 0, scale_t = 0;
@@ -223,6 +225,7 @@ TEST_CASE("splits of neighbours, again and again, with a plate on top: the force
         for (int i = 0; i < a.state.bodies.size(); ++i) {
             if (a.state.bodies.wall[i] >= 0 || i % 3 != round % 3) continue;
             SplitRequest r;
+            r.rules = easy_rules();
             r.body = i;
             r.plane.normal = normalized(random_vector(draw));
             r.plane.offset = dot(r.plane.normal, a.state.bodies.position[i]);
@@ -243,7 +246,7 @@ TEST_CASE("splits of neighbours, again and again, with a plate on top: the force
         sum(force, torque);
         for (int i = 0; i < b.size(); ++i) plate += b.wall[i] >= 0 ? b.force[i] : Vec3{};
         const Ledger energy = energy_ledger(a.model, a.state);
-        const auto reports = split_grains(a.model, a.state, requests, {easy_rules()});
+        const auto reports = split_grains(a.model, a.state, requests);
         REQUIRE(why_not_valid(a.model, a.state).empty());
         int done = 0;
         for (const SplitReport& r : reports) done += r.status == SplitStatus::done ? 1 : 0;
@@ -273,10 +276,11 @@ TEST_CASE("one step after a split differs by the square of the step")
         int draw = 5000;
         Assembly a = block(draw), cut = block(draw = 5000);
         SplitRequest r;
+        r.rules = easy_rules();
         r.body = 13;
         r.plane.normal = normalized(Vec3{1, 2, -1});
         r.plane.offset = dot(r.plane.normal, cut.state.bodies.position[13]);
-        const auto report = split_grains(cut.model, cut.state, {r}, {easy_rules()});
+        const auto report = split_grains(cut.model, cut.state, {r});
         step(a.model, a.state, dt);
         step(cut.model, cut.state, dt);
         const Bodies &whole = a.state.bodies, &parts = cut.state.bodies;
@@ -303,7 +307,8 @@ TEST_CASE("what a split refuses, and a free surface")
     const Vec3 c = a.state.bodies.position[13];
     const auto status = [&](double offset, const SplitRules& rules) {
         r.plane.offset = c.x + offset;
-        return why_not_split(a.model, a.state, r, rules);
+        r.rules = rules;
+        return why_not_split(a.model, a.state, r);
     };
     SplitRules rules = easy_rules();
     CHECK(status(0.7, rules) == SplitStatus::outside);
@@ -317,12 +322,37 @@ TEST_CASE("what a split refuses, and a free surface")
     CHECK(status(0.0, rules) == SplitStatus::generation);
     rules = easy_rules();
     rules.cohesive = false;
+    r.rules = rules;
     r.plane.offset = c.x;
     const int interfaces = a.state.interfaces.size();
-    const auto report = split_grains(a.model, a.state, {r}, {rules});
+    const auto report = split_grains(a.model, a.state, {r});
     CHECK(report[0].status == SplitStatus::done);
     CHECK(report[0].inserted_energy == 0.0);
     CHECK(a.state.interfaces.size() == interfaces + 4);  // the four side faces are shared out, no new surface
     CHECK(std::count(a.state.interfaces.transgranular.host().begin(), a.state.interfaces.transgranular.host().end(),
                      1) == 0);
+}
+
+TEST_CASE("a refused plane is remembered, the others stay candidates; parts start afresh")
+{
+    int draw = 6100;
+    Assembly a = block(draw);
+    const Vec3 c = a.state.bodies.position[13];
+    SplitRequest r;
+    r.rules = easy_rules();
+    r.rules.least_volume = 0.1;
+    r.body = 13;
+    r.plane = {{1, 0, 0}, c.x + 0.45};
+    r.candidate = 2;
+    CHECK(split_grains(a.model, a.state, {r})[0].status == SplitStatus::small_part);
+    CHECK(a.state.bodies.saturated[13] == candidate_bit(2));
+    r.plane.offset = c.x;
+    r.candidate = 0;
+    const auto report = split_grains(a.model, a.state, {r});
+    CHECK(report[0].status == SplitStatus::done);
+    CHECK(a.state.bodies.saturated[13] == 0);
+    CHECK(a.state.bodies.saturated[report[0].new_body] == 0);
+    r.rules.most_generations = 1;
+    CHECK(split_grains(a.model, a.state, {r})[0].status == SplitStatus::generation);
+    CHECK(a.state.bodies.saturated[13] == ~std::int64_t{0});
 }

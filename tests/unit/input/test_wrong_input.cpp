@@ -82,6 +82,11 @@ const Wrong wrong_values[] = {
      "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa m^0.5\"\nflaw_size = "
      "\"30 um\"\nmax_generation = -1",
      "error: FILE:13: materials.sic.cleavage.max_generation = -1: must be >= 0 and <= 20\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = [\"2 MPa m^0.5\", \"3 MPa "
+     "m^0.5\"]\nflaw_size = \"30 um\"",
+     "error: FILE:11: materials.sic.cleavage.toughness = [\"2 MPa m^0.5\", \"3 MPa m^0.5\"]: has 2 values; must have "
+     "one for all planes, or 1 as `planes`\n"},
     {B, "\"0.6 mm\"", "\"0.6 kg\"",
      "error: FILE:13: parts[0].side = \"0.6 kg\": is a mass; expected a length, e.g. \"1 m\"\n"},
     {B, "\"0.6 mm\"", "\"0.6\"",
@@ -207,7 +212,8 @@ const Wrong wrong_values[] = {
     {B, "side =", "orientation = {}\nside =",
      "error: FILE:13: parts[0].orientation = {}: has none of choices, random, file; must have exactly one\n"},
     {B, "side =", "orientation = { choices = [] }\nside =",
-     "error: FILE:13: parts[0].orientation.choices = []: is empty; must be an array such as [\"1 rad\", \"1 rad\"]\n"},
+     "error: FILE:13: parts[0].orientation.choices = []: is empty; must be \"1 rad\", or an array such as [\"1 rad\", "
+     "\"1 rad\"]\n"},
     {B, "platen_speed = \"20 mm/s\"\n", "",
      "error: FILE:28: test.platen_speed: missing; required with any kind but \"custom\" and \"drop\": a quantity > 0 "
      "m/s "
