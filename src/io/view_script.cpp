@@ -188,6 +188,7 @@ def show_cracks(layers, view, field, categories, title, where, height):
 def show_walls(walls, view):
     display = Show(walls, view)
     display.SetRepresentationType("Surface")
+    display.Interpolation = "Flat"  # the ends of rollers are flat
     display.ColorArrayName = ["POINTS", ""]  # ColorBy(display, None) fails in ParaView 5.11
     display.AmbientColor = display.DiffuseColor = [0.6, 0.6, 0.6]
     display.Opacity = 0.3
