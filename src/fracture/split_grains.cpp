@@ -402,10 +402,16 @@ private:
             const int q = first_point + static_cast<int>(k);
             const auto& d = jumps[k];
             // half of the offset on either side, so that the force acts where the traction was found
-            const Vec3 half = 0.5 * (d[0] * s.normal + d[1] * t1 + d[2] * t2), x = s.points[k].position;
+            const Vec3 x = s.points[k].position,
+                       half = r.cohesive ? 0.5 * (d[0] * s.normal + d[1] * t1 + d[2] * t2) : Vec3{};
             at(state_.points.position_a, q) = placement(b, s.a).to_body(x - half);
             at(state_.points.position_b, q) = placement(b, s.b).to_body(x + half);
             at(state_.points.weight, q) = s.points[k].weight;
+            if (!r.cohesive) {
+                at(state_.points.damage, q) = 1.0;
+                at(f.shear_share, n) += s.points[k].weight * mix[k];
+                continue;
+            }
             stored += 0.5 * s.points[k].weight *
                       (r.normal_stiffness * d[0] * d[0] + r.shear_stiffness * (d[1] * d[1] + d[2] * d[2]));
             if (onset[k] <= 0.0) continue;
@@ -413,6 +419,11 @@ private:
             at(state_.points.onset, q) = onset[k];
             at(state_.points.failure, q) = onset[k] + 2.0 * law.fracture_energy(mix[k]) / mean;
             at(state_.points.slip, q) = {d[1], d[2]};
+        }
+        if (!r.cohesive) {  // a crack from the start, in the list for the results: contact acts in its place
+            at(f.damage, n) = 1.0;
+            at(f.failure_time, n) = state_.time;
+            at(f.retired, n) = 1;
         }
         at(f.stored_energy, n) = stored;
         at(f.inserted_work, n) = stored;
@@ -712,19 +723,15 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
     for (const int i : given) at(state.contacts.inserted_work, i) += held_and_lost(i);
 
     std::vector<CutSurface> surfaces;
-    for (std::size_t k = 0; k < partings.size(); ++k) {
-        if (partings[k].request.rules.cohesive) surfaces.push_back(cut_surface(state, partings[k]));
-    }
-    if (!surfaces.empty()) {
-        interfaces.add(surfaces);
-        find_pairs(model, state);
-        find_contacts(model, state);
-        bring_up_to_date(model, state);
-        for (int i = 0; i < state.interfaces.size(); ++i) {
-            for (std::size_t k = 0; k < partings.size(); ++k) {
-                if (state.interfaces.a[i] == partings[k].request.body && state.interfaces.b[i] == partings[k].part_1)
-                    reports[report_of[k]].inserted_energy = state.interfaces.inserted_work[i];
-            }
+    for (const Parting& p : partings) surfaces.push_back(cut_surface(state, p));
+    interfaces.add(surfaces);
+    find_pairs(model, state);
+    find_contacts(model, state);
+    bring_up_to_date(model, state);
+    for (int i = 0; i < state.interfaces.size(); ++i) {
+        for (std::size_t k = 0; k < partings.size(); ++k) {
+            if (state.interfaces.a[i] == partings[k].request.body && state.interfaces.b[i] == partings[k].part_1)
+                reports[report_of[k]].inserted_energy = state.interfaces.inserted_work[i];
         }
     }
     return reports;
