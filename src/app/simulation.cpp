@@ -33,10 +33,6 @@ constexpr double automatic_rows = 2000.0;
 constexpr double automatic_snapshots = 20.0;
 /// The time step is checked against the present stiffness after this many steps: contacts come slowly compared to it.
 constexpr int steps_between_checks = 500;
-/// Grains are asked for cleavage after this many steps, or half the time that a wave takes through one if that is more:
-/// small fragments make small steps, but stresses change no faster.
-constexpr int steps_between_cleavage = 10;
-constexpr double share_of_transit = 0.5;
 /// Shorter time steps are logged from this share on.
 constexpr double logged_change = 0.01;
 /// A run whose energy account is off by this share has gone wrong: a stable one stays below 1e-3.
@@ -129,7 +125,7 @@ private:
         while (true) {
             if (state_.step % steps_between_checks == 0 && state_.step > 0) shorten_step_if_needed();
             const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
-            const bool cleave = !cleavage_.empty() && stage.fracture && state_.step + 1 >= next_look_;
+            const bool cleave = !cleavage_.empty() && stage.fracture && state_.step + 1 >= state_.next_look;
             const auto before = Clock::now();
             step(model_, state_, dt_, snapshot || cleave);
             record_.phases.steps += seconds_since(before);
@@ -189,20 +185,12 @@ private:
         record_.limiter = bound.limiter;
     }
 
-    std::int64_t steps_between_looks() const
-    {
-        double transit = 0.0;
-        for (const CleavageRules& r : cleavage_) {
-            if (!r.families.empty() && (transit == 0.0 || r.pause < transit)) transit = r.pause;
-        }
-        return std::max<std::int64_t>(steps_between_cleavage, std::llround(share_of_transit * transit / dt_));
-    }
-
     /// True if a grain was split.
     bool split_where_due()
     {
         const auto before = Clock::now();
         const std::vector<GrainCleavage> found = find_cleavage(model_, state_, grain_stress(model_, state_), cleavage_);
+        plan_next_look(state_, found, cleavage_, dt_);
         const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
         bool split = false;
         if (!due.empty()) {
@@ -219,7 +207,6 @@ private:
                 }
             }
         }
-        next_look_ = state_.step + steps_between_looks();
         record_.phases.splitting += seconds_since(before);
         if (!split) return false;
         if (const std::string why = why_not_valid(model_, state_); !why.empty())
@@ -412,7 +399,7 @@ private:
     int stage_body_ = -1;
     Vec3 stage_origin_;
     bool finished_stage_ = false;
-    std::int64_t broken_ = 0, fragments_ = 0, next_look_ = 0;
+    std::int64_t broken_ = 0, fragments_ = 0;
     double energy_floor_ = 0.0;  // [J]
     Clock::time_point last_checkpoint_;
 };

@@ -14,6 +14,10 @@ namespace {
 
 /// Bodies per share of work that a thread takes at once is the pool's; fewer than this are done by the caller.
 constexpr int least_for_threads = 64;
+/// The latest next look: after this many steps, or this share of the time that a wave takes through a grain if that is
+/// more. Small fragments make small steps, but stresses change no faster.
+constexpr std::int64_t most_steps = 10;
+constexpr double most_transits = 0.5;
 
 /// A grain with all that acts on it, in its body frame: the sharp polyhedron as kernels see it, loads, motion.
 struct LoadedGrain {
@@ -124,7 +128,6 @@ GrainCleavage worst_plane(const Model& model, const State& state, int body, cons
     const Quat crystal = state.bodies.crystal[body];
     const bool whole = state.bodies.generation[body] == 0;
     GrainCleavage found;
-    double most_due = 1.0;
     int candidate = -1;
     for (std::size_t f = 0; f < rules.families.size(); ++f) {
         const CleavageFamily& family = rules.families[f];
@@ -146,12 +149,9 @@ GrainCleavage worst_plane(const Model& model, const State& state, int body, cons
                 found.family = static_cast<std::int32_t>(f);
                 found.plane = in_space;
             }
-            const bool first = found.due.body < 0;
-            if ((first ? c.f >= most_due : c.f > most_due) &&
-                (state.bodies.saturated[body] & candidate_bit(candidate)) == 0) {
-                most_due = c.f;
-                found.due = {body, in_space, family.split, candidate, c.K_I, c.K_II};
-            }
+            if (c.f <= found.nearest || (state.bodies.saturated[body] & candidate_bit(candidate)) != 0) continue;
+            found.nearest = c.f;
+            if (c.f >= 1.0) found.due = {body, in_space, family.split, candidate, c.K_I, c.K_II};
         }
     }
     return found;
@@ -200,6 +200,26 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
                          n);
     }
     return found;
+}
+
+void plan_next_look(State& state, const std::vector<GrainCleavage>& found, const std::vector<CleavageRules>& rules,
+                    double dt)
+{
+    double transit = 0.0;
+    for (const CleavageRules& r : rules) {
+        if (!r.families.empty() && (transit == 0.0 || r.pause < transit)) transit = r.pause;
+    }
+    std::int64_t wait = std::max<std::int64_t>(most_steps, std::llround(most_transits * transit / dt));
+    const auto since = static_cast<double>(std::max<std::int64_t>(1, state.step - state.last_look));
+    auto& before = state.bodies.cleavage_factor.host();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double now = found[i].nearest, growth = now - before[i];
+        before[i] = now;
+        if (now < 1.0 && growth > 0.0)
+            wait = std::min(wait, std::max<std::int64_t>(1, std::llround(0.5 * (1.0 - now) / growth * since)));
+    }
+    state.last_look = state.step;
+    state.next_look = state.step + wait;
 }
 
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,

@@ -31,6 +31,7 @@ struct GrainCleavage {
     Cleavage worst;            ///< where in space; f = 0 if the gate held it back
     std::int32_t family = -1;  ///< of the worst plane
     Plane plane;               ///< the worst, in space
+    double nearest = 0.0;      ///< f of the worst of the planes that were not refused before [-]
     SplitRequest due;          ///< along the worst of the planes that were not refused before; body -1: none has f >= 1
 };
 
@@ -39,6 +40,11 @@ struct GrainCleavage {
 /// Independent of thread count. Ties go to the first family and plane.
 std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state, const std::vector<Mat3>& stress,
                                          const std::vector<CleavageRules>& rules);
+
+/// Sets the step of the next look: when the first grain might get half way to f = 1 at the rate at which f grew since
+/// the last look, and not later than half the time that a wave takes through a grain.
+void plan_next_look(State& state, const std::vector<GrainCleavage>& found, const std::vector<CleavageRules>& rules,
+                    double dt);
 
 /// Requests for those that reach f >= 1 and may split now, in the order of the bodies.
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,

@@ -37,6 +37,7 @@ struct Bodies {
     Buffer<std::int32_t> generation;  ///< number of splits behind it [-]
     Buffer<double> split_time;        ///< of the last split behind it, -1 if it is whole [s]
     Buffer<std::int64_t> saturated;   ///< bit k: a split along candidate plane k was refused [-]
+    Buffer<double> cleavage_factor;   ///< f of the worst plane that may split, at the last look for cleavage [-]
     Buffer<double> origin_volume;     ///< of the sharp grain that it was at the start; 0 for walls [m^3]
 
     int size() const { return position.size(); }
@@ -71,6 +72,7 @@ struct Bodies {
         visit("generation", generation);
         visit("split_time", split_time);
         visit("saturated", saturated);
+        visit("cleavage_factor", cleavage_factor);
         visit("origin_volume", origin_volume);
     }
 };

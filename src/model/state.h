@@ -52,6 +52,7 @@ struct State {
     double initial_energy = 0.0;  ///< E_0 of the ledger [J]
     double time = 0.0;            ///< [s]
     std::int64_t step = 0;
+    std::int64_t last_look = 0, next_look = 0;  ///< steps of the looks for cleavage
 
     int bond_slots() const { return interfaces.size() + parallels.size(); }
 };
