@@ -28,11 +28,6 @@ Stair stair_of(const SizeDistribution& d, double factor)
     return s;
 }
 
-std::string count_of(std::size_t n, const char* what)
-{
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
 /// "[10\u207b\u2076]" for parts in a million.
 std::string power_of_ten(double factor)
 {
@@ -81,16 +76,16 @@ void plot_fragment_sizes(const std::filesystem::path& stem, const std::vector<Fr
     range = {std::floor(std::log10(range.low * prefix.factor) - 0.05),
              std::ceil(std::log10(range.high * prefix.factor) + 0.05)};
     const Stair fine = stair_of(bodies, prefix.factor), coarse = stair_of(bonded, prefix.factor);
-    const Frame frame{0.11, 0.95, 0.13, 0.88};
+    const Frame frame{0.11, 0.72, 0.13, 0.88};
     draw_figure(stem, [&] {
         draw_title("Sizes of the fragments");
         draw_axes(frame, range, {0.0, 105.0}, "Diameter of the ball of equal volume [" + prefix.name + "m]",
                   "Mass of pieces up to this size [%]", {.logarithmic_x = true});
         draw_line(fine.x, fine.y, Ink::red, 2.5);
         draw_line(coarse.x, coarse.y, Ink::blue, 2.5);
-        draw_legend(frame.left + 0.03, frame.top - 0.1,
-                    {{Ink::red, 2.5, "grains and parts of grains (" + std::to_string(fragments.size()) + ")"},
-                     {Ink::blue, 2.5, "what bonds hold together (" + count_of(clusters.size(), "cluster") + ")"}});
+        draw_legend(frame.right + 0.02, frame.top - 0.02,
+                    {{Ink::red, 2.5, fmt::format("grains and parts ({})", fragments.size())},
+                     {Ink::blue, 2.5, fmt::format("bonded clusters ({})", clusters.size())}});
     });
 }
 
