@@ -123,7 +123,8 @@ private:
     {
         finished_stage_ = false;
         while (true) {
-            if (state_.step % steps_between_checks == 0 && state_.step > 0) shorten_step_if_needed();
+            if (state_.step % steps_between_checks == 0 && state_.step > 0)
+                shorten_step_if_needed(time_step_bound(model_, state_));
             const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
             const bool cleave = !cleavage_.empty() && stage.fracture && state_.step + 1 >= state_.next_look;
             const auto before = Clock::now();
@@ -170,10 +171,9 @@ private:
         return stage_body_ < 0 ? 0.0 : norm(state_.bodies.position[stage_body_] - stage_origin_);
     }
 
-    void shorten_step_if_needed()
+    void shorten_step_if_needed(const TimeStepBound& bound)
     {
         if (case_.control.time_step) return;
-        const TimeStepBound bound = time_step_bound(model_, state_);
         if (bound.body < 0) return;
         const double allowed = case_.control.time_step_safety * bound.with_damping;
         if (allowed >= dt_) return;
@@ -192,11 +192,11 @@ private:
         const std::vector<GrainCleavage> found = find_cleavage(model_, state_, grain_stress(model_, state_), cleavage_);
         plan_next_look(state_, found, cleavage_, dt_);
         const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
-        bool split = false;
+        std::vector<int> parts;
         if (!due.empty()) {
             for (const SplitReport& r : split_grains(model_, state_, due)) {
                 if (r.status == SplitStatus::done) {
-                    split = true;
+                    parts.insert(parts.end(), {r.body, r.new_body});
                     ++record_.splits;
                     record_.split_area += r.area;
                     record_.split_energy += r.inserted_energy;
@@ -208,10 +208,10 @@ private:
             }
         }
         record_.phases.splitting += seconds_since(before);
-        if (!split) return false;
+        if (parts.empty()) return false;
         if (const std::string why = why_not_valid(model_, state_); !why.empty())
             throw std::logic_error("a split made an impossible state: " + why);
-        shorten_step_if_needed();
+        shorten_step_if_needed(time_step_bound(model_, state_, parts));
         return true;
     }
 

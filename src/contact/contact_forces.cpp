@@ -118,41 +118,49 @@ struct ContactForces {
     }
 };
 
+ContactForces<LinearContact> kernel(const Model& model, State& state, double dt, Device d)
+{
+    Contacts& c = state.contacts;
+    return {motion_view(state.bodies, d),
+            slots_view(state.slots, d),
+            model.contact_laws.read(d),
+            dt,
+            state.bond_slots(),
+            c.a.read(d),
+            c.b.read(d),
+            c.law.read(d),
+            c.bond_slot.read(d),
+            c.bond_count.read(d),
+            c.point.read(d),
+            c.active.write(d),
+            c.shear_force.write(d),
+            c.normal.write(d),
+            c.twist_moment.write(d),
+            c.max_overlap.write(d),
+            c.offset_overlap.write(d),
+            c.stiffness_scale.write(d),
+            c.viscous_force.write(d),
+            c.normal_force.write(d),
+            c.stored_energy.write(d),
+            c.friction_work.write(d),
+            c.viscous_work.write(d),
+            c.hysteresis_work.write(d),
+            c.shear_stiffness.write(d),
+            c.twist_stiffness.write(d),
+            c.inserted_work.write(d)};
+}
+
 }  // namespace
 
 void contact_forces(const Model& model, State& state, double dt)
 {
-    const Device d = model.device;
-    Contacts& c = state.contacts;
-    if (c.size() == 0) return;
-    parallel_for(d, c.size(),
-                 ContactForces<LinearContact>{motion_view(state.bodies, d),
-                                              slots_view(state.slots, d),
-                                              model.contact_laws.read(d),
-                                              dt,
-                                              state.bond_slots(),
-                                              c.a.read(d),
-                                              c.b.read(d),
-                                              c.law.read(d),
-                                              c.bond_slot.read(d),
-                                              c.bond_count.read(d),
-                                              c.point.read(d),
-                                              c.active.write(d),
-                                              c.shear_force.write(d),
-                                              c.normal.write(d),
-                                              c.twist_moment.write(d),
-                                              c.max_overlap.write(d),
-                                              c.offset_overlap.write(d),
-                                              c.stiffness_scale.write(d),
-                                              c.viscous_force.write(d),
-                                              c.normal_force.write(d),
-                                              c.stored_energy.write(d),
-                                              c.friction_work.write(d),
-                                              c.viscous_work.write(d),
-                                              c.hysteresis_work.write(d),
-                                              c.shear_stiffness.write(d),
-                                              c.twist_stiffness.write(d),
-                                              c.inserted_work.write(d)});
+    if (state.contacts.size() == 0) return;
+    parallel_for(model.device, state.contacts.size(), kernel(model, state, dt, model.device));
+}
+
+void contact_forces(const Model& model, State& state, const std::vector<int>& contacts)
+{
+    serial_for(contacts, kernel(model, state, 0.0, Device::cpu));
 }
 
 }  // namespace grainfrac

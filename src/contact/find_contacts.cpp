@@ -57,18 +57,26 @@ struct PenetrationTerm {
     }
 };
 
-}  // namespace
-
-void find_contacts(const Model& model, State& state)
+FindContacts kernel(const Model& model, State& state, Device d)
 {
-    const Device d = model.device;
     Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
     const Suppression suppressed{c.bond_slot.read(d), c.bond_count.read(d), state.interfaces.retired.read(d),
                                  state.parallels.cause.read(d)};
-    parallel_for(d, c.size(),
-                 FindContacts{view(model.shapes, d), b.position.read(d), b.orientation.read(d), b.shape.read(d),
-                              c.a.read(d), c.b.read(d), suppressed, c.point.write(d)});
+    return {view(model.shapes, d), b.position.read(d), b.orientation.read(d), b.shape.read(d), c.a.read(d),
+            c.b.read(d),           suppressed,         c.point.write(d)};
+}
+
+}  // namespace
+
+void find_contacts(const Model& model, State& state)
+{
+    parallel_for(model.device, state.contacts.size(), kernel(model, state, model.device));
+}
+
+void find_contacts(const Model& model, State& state, const std::vector<int>& pairs)
+{
+    serial_for(pairs, kernel(model, state, Device::cpu));
 }
 
 int penetrating_pair(const Model& model, const State& state)

@@ -5,10 +5,14 @@
 #include "model/model.h"
 #include "model/state.h"
 
+#include <vector>
+
 namespace grainfrac {
 
 /// Fill Contacts::point at the present positions; pairs whose bonds still act get none.
 void find_contacts(const Model& model, State& state);
+/// The same for some pairs, on the host.
+void find_contacts(const Model& model, State& state, const std::vector<int>& pairs);
 
 /// Pair whose cores penetrate (an error state), or -1. Looks at the points of the last find_contacts.
 int penetrating_pair(const Model& model, const State& state);

@@ -36,17 +36,32 @@ struct GatherForces {
     }
 };
 
+GatherForces kernel(const Model& model, State& state, Device d)
+{
+    Bodies& b = state.bodies;
+    const Slots& s = state.slots;
+    return {state.incidence.begin.read(d),
+            state.incidence.entry.read(d),
+            s.force.read(d),
+            s.torque_a.read(d),
+            s.torque_b.read(d),
+            b.mass.read(d),
+            b.inverse_mass.read(d),
+            model.gravity,
+            b.force.write(d),
+            b.torque.write(d)};
+}
+
 }  // namespace
 
 void gather_forces(const Model& model, State& state)
 {
-    const Device d = model.device;
-    Bodies& b = state.bodies;
-    const Slots& s = state.slots;
-    parallel_for(d, b.size(),
-                 GatherForces{state.incidence.begin.read(d), state.incidence.entry.read(d), s.force.read(d),
-                              s.torque_a.read(d), s.torque_b.read(d), b.mass.read(d), b.inverse_mass.read(d),
-                              model.gravity, b.force.write(d), b.torque.write(d)});
+    parallel_for(model.device, state.bodies.size(), kernel(model, state, model.device));
+}
+
+void gather_forces(const Model& model, State& state, const std::vector<int>& bodies)
+{
+    serial_for(bodies, kernel(model, state, Device::cpu));
 }
 
 void build_incidence(State& state)

@@ -274,9 +274,8 @@ struct ParallelForces {
     }
 };
 
-InterfaceForces interface_kernel(const Model& model, State& state, double dt)
+InterfaceForces interface_kernel(const Model& model, State& state, double dt, Device d)
 {
-    const Device d = model.device;
     InterfaceBonds& i = state.interfaces;
     InterfacePoints& p = state.points;
     return {motion_view(state.bodies, d),
@@ -327,9 +326,8 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt)
             p.slip.write(d)};
 }
 
-ParallelForces parallel_kernel(const Model& model, State& state, double dt)
+ParallelForces parallel_kernel(const Model& model, State& state, double dt, Device d)
 {
-    const Device d = model.device;
     ParallelBonds& p = state.parallels;
     return {motion_view(state.bodies, d),
             slots_view(state.slots, d),
@@ -367,9 +365,16 @@ ParallelForces parallel_kernel(const Model& model, State& state, double dt)
 void bond_forces(const Model& model, State& state, double dt)
 {
     if (state.interfaces.size() > 0)
-        parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt));
+        parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt, model.device));
     if (state.parallels.size() > 0)
-        parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt));
+        parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt, model.device));
+}
+
+void bond_forces(const Model& model, State& state, const std::vector<int>& interfaces,
+                 const std::vector<int>& parallels)
+{
+    serial_for(interfaces, interface_kernel(model, state, 0.0, Device::cpu));
+    serial_for(parallels, parallel_kernel(model, state, 0.0, Device::cpu));
 }
 
 void start_bonds(const Model&, State& state)

@@ -16,8 +16,8 @@ namespace {
 constexpr int least_for_threads = 64;
 /// The latest next look: after this many steps, or this share of the time that a wave takes through a grain if that is
 /// more. Small fragments make small steps, but stresses change no faster.
-constexpr std::int64_t most_steps = 10;
-constexpr double most_transits = 0.5;
+constexpr std::int64_t most_steps = 20;
+constexpr double most_transits = 1.0;
 
 /// A grain with all that acts on it, in its body frame: the sharp polyhedron as kernels see it, loads, motion.
 struct LoadedGrain {

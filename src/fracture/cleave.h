@@ -42,7 +42,7 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
                                          const std::vector<CleavageRules>& rules);
 
 /// Sets the step of the next look: when the first grain might get half way to f = 1 at the rate at which f grew since
-/// the last look, and not later than half the time that a wave takes through a grain.
+/// the last look, and not later than a wave takes through a grain.
 void plan_next_look(State& state, const std::vector<GrainCleavage>& found, const std::vector<CleavageRules>& rules,
                     double dt);
 

@@ -56,6 +56,8 @@ public:
         return host_;
     }
     const T& operator[](int i) const { return host()[static_cast<std::size_t>(i)]; }
+    /// An entry to be changed on the host.
+    T& at(int i) { return host()[static_cast<std::size_t>(i)]; }
 
     void resize(int n, const T& value = T{}) { host().resize(static_cast<std::size_t>(n), value); }
     void assign(int n, const T& value) { host().assign(static_cast<std::size_t>(n), value); }

@@ -68,6 +68,13 @@ void parallel_for(Device device, int n, const Kernel& kernel)
         &kernel, n);
 }
 
+/// The same on the host, for some indices only: what a change of topology touched.
+template <class Kernel>
+void serial_for(const std::vector<int>& indices, const Kernel& kernel)
+{
+    for (const int i : indices) kernel(i);
+}
+
 /// Terms per partial result: fixed, so that a sum has the same bits for any thread count and device.
 inline constexpr int reduction_block = 256;
 

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace grainfrac {
@@ -39,16 +40,24 @@ struct Stiffness {
     std::vector<Matrix6> K;           // per body, world axes about its centre
     std::vector<const char*> source;  // what is stiffest on it
     std::vector<double> strongest;
+    std::vector<char> wanted;
 
-    explicit Stiffness(int n)
-        : K(static_cast<std::size_t>(n), Matrix6::Zero()),
-          source(static_cast<std::size_t>(n), ""),
-          strongest(static_cast<std::size_t>(n), 0.0)
+    /// Of the bodies that are wanted; the others stay zero.
+    explicit Stiffness(std::vector<char> wanted_bodies)
+        : K(wanted_bodies.size(), Matrix6::Zero()),
+          source(wanted_bodies.size(), ""),
+          strongest(wanted_bodies.size(), 0.0),
+          wanted(std::move(wanted_bodies))
     {
+    }
+    bool wants(int a, int b) const
+    {
+        return wanted[static_cast<std::size_t>(a)] != 0 || wanted[static_cast<std::size_t>(b)] != 0;
     }
     void add(int body, const Vec3& arm, const Vec3& n, double k_n, double k_s, const char* what)
     {
         const auto i = static_cast<std::size_t>(body);
+        if (wanted[i] == 0) return;
         add_spring(K[i], arm, n, k_n, k_s);
         if (k_n > strongest[i]) {
             strongest[i] = k_n;
@@ -62,7 +71,7 @@ void add_interfaces(const State& state, Stiffness& s)
     const InterfaceBonds& f = state.interfaces;
     const Bodies& b = state.bodies;
     for (int i = 0; i < f.size(); ++i) {
-        if (f.retired[i] != 0) continue;
+        if (f.retired[i] != 0 || !s.wants(f.a[i], f.b[i])) continue;
         const Quat qa = b.orientation[f.a[i]], qb = b.orientation[f.b[i]];
         const Vec3 n = normalized(rotate(qa, f.normal_a[i]) + rotate(qb, f.normal_b[i]));
         for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
@@ -80,7 +89,7 @@ void add_parallels(const State& state, Stiffness& s)
     const ParallelBonds& p = state.parallels;
     const Bodies& b = state.bodies;
     for (int i = 0; i < p.size(); ++i) {
-        if (p.cause[i] != 0) continue;
+        if (p.cause[i] != 0 || !s.wants(p.a[i], p.b[i])) continue;
         const CircularSection c(p.radius[i]);
         const auto side = [&](int body, const Vec3& position, const Vec3& normal) {
             const Quat q = b.orientation[body];
@@ -88,6 +97,7 @@ void add_parallels(const State& state, Stiffness& s)
             s.add(body, arm, n, p.normal_stiffness[i] * c.area, p.shear_stiffness[i] * c.area, "parallel bond");
             const Eigen::Vector3d e = eigen(n);
             const double bending = p.normal_stiffness[i] * c.bending, torsion = p.shear_stiffness[i] * c.polar;
+            if (s.wanted[static_cast<std::size_t>(body)] == 0) return;
             s.K[static_cast<std::size_t>(body)].bottomRightCorner<3, 3>() +=
                 bending * Eigen::Matrix3d::Identity() + (torsion - bending) * e * e.transpose();
         };
@@ -104,6 +114,7 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
     const Bodies& b = state.bodies;
     for (int i = 0; i < c.size(); ++i) {
         const int bodies[2] = {c.a[i], c.b[i]};
+        if (!s.wants(bodies[0], bodies[1])) continue;
         const LinearContact law = model.contact_laws[c.law[i]];
         const ContactPoint p = c.point[i];
         const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
@@ -178,7 +189,8 @@ constexpr double travel_per_step = 0.1;
 
 /// Bodies without bonds live on impacts: resolve half the period of the stiffest contact they may have, and their
 /// speed.
-void limit_for_loose_bodies(const Model& model, const State& state, TimeStepBound& bound)
+void limit_for_loose_bodies(const Model& model, const State& state, const std::vector<char>& wanted,
+                            TimeStepBound& bound)
 {
     const Bodies& b = state.bodies;
     std::vector<char> bonded(static_cast<std::size_t>(b.size()), 0);
@@ -192,7 +204,8 @@ void limit_for_loose_bodies(const Model& model, const State& state, TimeStepBoun
     for (const LinearContact& law : model.contact_laws.host())
         stiffest = std::fmax(stiffest, law.area_stiffness * law.unload_factor);
     for (int i = 0; i < b.size(); ++i) {
-        if (b.inverse_mass[i] == 0.0 || bonded[static_cast<std::size_t>(i)] != 0) continue;
+        const auto k = static_cast<std::size_t>(i);
+        if (b.inverse_mass[i] == 0.0 || bonded[k] != 0 || wanted[k] == 0) continue;
         const double K = stiffest * model.shapes.largest_face[b.shape[i]];
         const double collision =
             K > 0.0 ? std::numbers::pi / std::sqrt(K * b.inverse_mass[i]) / steps_per_collision : 0.0;
@@ -208,11 +221,9 @@ void limit_for_loose_bodies(const Model& model, const State& state, TimeStepBoun
     }
 }
 
-}  // namespace
-
-TimeStepBound time_step_bound(const Model& model, const State& state)
+TimeStepBound bound_of(const Model& model, const State& state, const std::vector<char>& wanted)
 {
-    Stiffness s(state.bodies.size());
+    Stiffness s(wanted);
     add_interfaces(state, s);
     add_parallels(state, s);
     add_contacts(model, state, s);
@@ -231,11 +242,25 @@ TimeStepBound time_step_bound(const Model& model, const State& state)
         bound.limiter = "body " + std::to_string(state.bodies.id[bound.body]) +
                         ", stiffest spring: " + s.source[static_cast<std::size_t>(bound.body)];
     }
-    limit_for_loose_bodies(model, state, bound);
+    limit_for_loose_bodies(model, state, wanted, bound);
     if (bound.body < 0) return bound;
     const double zeta = damping_at(state, model, 2.0 / bound.critical);
     bound.with_damping = bound.critical * (std::sqrt(1.0 + zeta * zeta) - zeta);
     return bound;
+}
+
+}  // namespace
+
+TimeStepBound time_step_bound(const Model& model, const State& state)
+{
+    return bound_of(model, state, std::vector<char>(static_cast<std::size_t>(state.bodies.size()), 1));
+}
+
+TimeStepBound time_step_bound(const Model& model, const State& state, const std::vector<int>& bodies)
+{
+    std::vector<char> wanted(static_cast<std::size_t>(state.bodies.size()), 0);
+    for (const int i : bodies) wanted[static_cast<std::size_t>(i)] = 1;
+    return bound_of(model, state, wanted);
 }
 
 }  // namespace grainfrac

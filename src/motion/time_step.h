@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace grainfrac {
 
@@ -24,5 +25,7 @@ struct TimeStepBound {
 /// Undamaged stiffness of every bond that still acts, every active contact, and every pair near enough to a wall to
 /// touch it. `body` is -1 and the bounds are 0 while nothing acts on anything.
 TimeStepBound time_step_bound(const Model& model, const State& state);
+/// The bound that some bodies set.
+TimeStepBound time_step_bound(const Model& model, const State& state, const std::vector<int>& bodies);
 
 }  // namespace grainfrac
