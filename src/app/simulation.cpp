@@ -76,6 +76,7 @@ public:
             energy_floor_ +=
                 negligible_energy * state_.bodies.mass[i] * experiment_.wave_speed * experiment_.wave_speed;
         record_.first_momentum = total_momentum(model_, state_);
+        record_.cracks = CrackWatch(crack_scale(model_, state_));
         if (case_.output.checkpoint > 0.0) checkpoint();
         Ending ending{exit_code::done, "all stages done"};
         for (const Stage& stage : experiment_.stages) {
@@ -249,6 +250,7 @@ private:
         r.unbalanced_force_ratio = unbalanced_force_ratio(state_);
         r.platen_imbalance = m.platen_imbalance;
         count_broken(r);
+        r.cracks = crack_sums(state_);
         r.split_grains = record_.splits;
         folder_.append_history(r);
         record_.rows.push_back(r);
@@ -281,6 +283,7 @@ private:
             fragments_ = static_cast<std::int64_t>(std::set<std::int32_t>(cluster.begin(), cluster.end()).size()) -
                          (std::find(cluster.begin(), cluster.end(), -1) != cluster.end() ? 1 : 0);
             broken_ = broken;
+            record_.cracks.look(model_, state_);
         }
         r.fragments = fragments_;
     }
@@ -424,6 +427,7 @@ Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& fol
         last_fields.stress.assign(bodies, {});
         last_fields.cleavage.assign(bodies, {});
     }
+    record.cracks.look(built.model, built.state);
     monitor_quasi_static(record);
     return ending;
 }

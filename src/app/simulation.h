@@ -5,6 +5,7 @@
 #include "app/options.h"
 #include "app/prepare.h"
 #include "experiment/experiment.h"
+#include "io/crack_start.h"
 #include "io/results.h"
 
 #include <cstdint>
@@ -40,6 +41,7 @@ struct RunRecord {
     double history_interval = 0.0, snapshot_interval = 0.0;  ///< [s]
     PhaseTimes phases;
     Momentum first_momentum, last_momentum;
+    CrackWatch cracks;
     std::int64_t splits = 0;
     double split_area = 0.0;                             ///< of all planes that split a grain [m^2]
     double split_energy = 0.0;                           ///< that new surfaces held at the start [J]

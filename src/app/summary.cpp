@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/summary.h"
 
+#include "experiment/specimen.h"
 #include "model/validate.h"
 
 #include <fmt/format.h>
@@ -23,13 +24,6 @@ constexpr std::size_t listed_breaks = 100;
 json vector_json(const Vec3& a)
 {
     return {a.x, a.y, a.z};
-}
-
-Vec3 center_of(const CrackFace& c)
-{
-    Vec3 x;
-    for (const Vec3& p : c.polygon) x += p * (1.0 / static_cast<double>(c.polygon.size()));
-    return x;
 }
 
 json counts(const Built& b)
@@ -56,27 +50,67 @@ json counts(const Built& b)
             {"contact_pairs", b.state.contacts.size()}};
 }
 
-json cracks_json(const std::vector<CrackFace>& cracks, const RunRecord& record)
+const char* kind_name(int mode, int cause)
 {
-    static const char* names[3] = {"intergranular_tension", "intergranular_shear", "intergranular_mixed"};
+    static constexpr const char* causes[] = {"intergranular_tension", "intergranular_shear", "intergranular_mixed"};
+    return mode == 1 ? "transgranular" : causes[cause];
+}
+
+/// Of the history at a time between two of its rows.
+json loading_at(const RunRecord& record, double time)
+{
+    const auto& rows = record.rows;
+    const auto after = std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& r) { return r.time >= time; });
+    const HistoryRow& b = after == rows.end() ? rows.back() : *after;
+    const HistoryRow& a = after == rows.begin() ? b : *(after - 1);
+    const double share = b.time > a.time ? (time - a.time) / (b.time - a.time) : 0.0;
+    const auto between = [&](double x, double y) { return x + share * (y - x); };
+    return {{"time_s", time},
+            {"load_N", between(a.load, b.load)},
+            {"displacement_m", between(a.displacement, b.displacement)},
+            {"nominal_strain", between(a.nominal_strain, b.nominal_strain)},
+            {"nominal_stress_Pa", between(a.nominal_stress, b.nominal_stress)},
+            {"before_peak", time <= record.peak_time}};
+}
+
+json start_json(const RunRecord& record, const CrackStart& start)
+{
+    json j = loading_at(record, start.time);
+    j["position_m"] = vector_json(start.point);
+    j["kind"] = kind_name(start.mode, start.cause);
+    j["faces_at_that_time"] = start.faces;
+    return j;
+}
+
+json cracks_json(const State& state, const std::vector<CrackFace>& cracks, const RunRecord& record)
+{
     json j;
-    for (const char* name : names) j[name] = {{"number", 0}, {"area_m2", 0.0}};
-    j["transgranular"] = {{"number", 0}, {"area_m2", 0.0}};
+    for (const int kind : {0, 1, 2, 3}) j[kind_name(kind / 3, kind % 3)] = {{"number", 0}, {"area_m2", 0.0}};
     for (const CrackFace& c : cracks) {
-        json& kind = j[c.mode == 1 ? "transgranular" : names[c.cause]];
+        json& kind = j[kind_name(c.mode, c.cause)];
         kind["number"] = kind["number"].get<int>() + 1;
         kind["area_m2"] = kind["area_m2"].get<double>() + c.area;
     }
-    if (!cracks.empty()) {
-        const CrackFace& first = cracks.front();
-        j["first"] = {{"time_s", first.time},
-                      {"position_m", vector_json(center_of(first))},
-                      {"before_peak", first.time <= record.peak_time}};
+    const CrackSums sums = crack_sums(state);
+    const double area = sums.intergranular_area + sums.transgranular_area, work = record.rows.back().energy.fracture;
+    j["area_m2"] = area;
+    j["transgranular"]["fracture_work_J"] = sums.transgranular_work;
+    j["transgranular"]["share_of_area"] = area > 0.0 ? sums.transgranular_area / area : 0.0;
+    j["transgranular"]["share_of_fracture_work"] = work > 0.0 ? sums.transgranular_work / work : 0.0;
+    if (const auto& first = record.cracks.first()) j["first"] = start_json(record, *first);
+    if (const auto& found = record.cracks.macroscopic()) {
+        json large = loading_at(record, found->time);
+        large["area_m2"] = found->area;
+        large["faces"] = found->faces;
+        j["first_macroscopic"] = {{"began", start_json(record, found->start)}, {"became_macroscopic", large}};
     }
+    j["macroscopic_from_area_m2"] = record.cracks.scale().area;
     json sequence = json::array();
     for (const CrackFace& c : cracks) {
         if (sequence.size() == listed_breaks) break;
-        sequence.push_back({{"time_s", c.time}, {"position_m", vector_json(center_of(c))}, {"cause", names[c.cause]}});
+        sequence.push_back({{"time_s", c.time},
+                            {"position_m", vector_json(polygon_centroid(c.polygon))},
+                            {"kind", kind_name(c.mode, c.cause)}});
     }
     j["sequence"] = sequence;
     return j;
@@ -131,12 +165,18 @@ json energy_json(const Ledger& e, const RunRecord& record)
             {"largest_relative_error_before_peak", worst_before_peak}};
 }
 
+/// What the test says of its curve; where it names no modulus, the slope of its nominal stress over its nominal strain.
 std::vector<NamedResult> derived_results(const Experiment& e, const RunRecord& record)
 {
-    if (e.results == nullptr) return {};
     std::vector<CurvePoint> curve;
     for (const HistoryRow& r : record.rows) curve.push_back({r.time, r.load, r.nominal_strain, r.nominal_stress});
-    return e.results(e, curve);
+    std::vector<NamedResult> results = e.results != nullptr ? e.results(e, curve) : std::vector<NamedResult>{};
+    const bool has_modulus = std::any_of(results.begin(), results.end(), [](const NamedResult& r) {
+        return r.name.find("modulus") != std::string::npos;
+    });
+    if (!has_modulus && e.specimen.stress_area > 0.0 && e.specimen.length > 0.0)
+        results.push_back({"modulus_Pa", secant_modulus(curve)});
+    return results;
 }
 
 json quasi_static_json(const Built& b, const RunRecord& record)
@@ -183,7 +223,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     if (b.experiment.specimen.stress_area > 0.0) j["test"]["nominal_strength_Pa"] = record.peak_stress;
     for (const NamedResult& r : b.experiment.facts) j["test"][r.name] = r.value;
     for (const NamedResult& r : derived_results(b.experiment, record)) j["test"][r.name] = r.value;
-    j["cracks"] = cracks_json(collect_cracks(b.model, b.state), record);
+    j["cracks"] = cracks_json(b.state, collect_cracks(b.model, b.state), record);
     if (!b.cleavage.empty()) j["splits"] = splits_json(record);
     j["fragments"] = fragments_json(b, fields);
     j["energy"] = energy_json(e, record);

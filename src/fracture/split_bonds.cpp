@@ -264,6 +264,12 @@ private:
             state_.points.position_a.at(q) = placement(b, s.a).to_body(s.points[k].position);
             state_.points.position_b.at(q) = placement(b, s.b).to_body(s.points[k].position);
             state_.points.weight.at(q) = s.points[k].weight;
+            if (!r.cohesive) state_.points.damage.at(q) = 1.0;
+        }
+        if (!r.cohesive) {  // a crack from the start, in the list for the results: contact acts in its place
+            f.damage.at(n) = 1.0;
+            f.failure_time.at(n) = state_.time;
+            f.retired.at(n) = 1;
         }
         put_corners(s.polygon, n, first_corner);
         set_width(s.polygon, n);
@@ -337,6 +343,10 @@ void load_surface(const Model& model, State& state, const CutSurface& s, const s
             sum += s.points[k].weight * onset.back();
             open += s.points[k].weight;
         }
+    }
+    if (!r.cohesive) {  // only what broke it
+        for (std::size_t k = 0; k < s.points.size(); ++k) f.shear_share.at(n) += s.points[k].weight * mix[k];
+        return;
     }
     double stored = 0.0;
     for (std::size_t k = 0; k < s.points.size(); ++k) {

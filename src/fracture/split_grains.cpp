@@ -288,12 +288,7 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
         reports[report_of[k]].new_body = partings[k].part_1;
     }
     std::vector<CutSurface> surfaces;
-    std::vector<std::size_t> parting_of;
-    for (std::size_t k = 0; k < partings.size(); ++k) {
-        if (!partings[k].request.rules.cohesive) continue;
-        surfaces.push_back(surface_of(partings[k]));
-        parting_of.push_back(k);
-    }
+    for (const Parting& p : partings) surfaces.push_back(surface_of(p));
     const std::vector<int> interfaces = divide_interfaces(model, state, partings, surfaces);
     const std::vector<int> parallels = divide_parallel_bonds(state, partings);
     find_pairs(model, state);
@@ -312,14 +307,13 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
 
     // the new surfaces carry nothing yet: the forces are those of the loads on the parts
     std::vector<std::vector<Vec3>> carried;
-    for (std::size_t k = 0; k < surfaces.size(); ++k)
-        carried.push_back(tractions(state, partings[parting_of[k]], surfaces[k]));
+    for (std::size_t k = 0; k < surfaces.size(); ++k) carried.push_back(tractions(state, partings[k], surfaces[k]));
     Touched parts;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         load_surface(model, state, surfaces[k], carried[k]);
         parts.interfaces.push_back(surfaces[k].interface);
         parts.bodies.insert(parts.bodies.end(), {surfaces[k].a, surfaces[k].b});
-        reports[report_of[parting_of[k]]].inserted_energy = state.interfaces.inserted_work[surfaces[k].interface];
+        reports[report_of[k]].inserted_energy = state.interfaces.inserted_work[surfaces[k].interface];
     }
     bring_up_to_date(model, state, parts);
     return reports;

@@ -3,6 +3,8 @@
 #include "io/results.h"
 #include "io/shape_surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +17,13 @@ namespace {
 
 /// Faces whose normal is nearer to z than this (cosine) lie in the picture's plane and have no trace in it.
 constexpr double flat_face = 0.7;
-constexpr std::array cause_inks{Ink::red, Ink::blue, Ink::purple};  // tension, shear, mixed
+// Between grains tension, shear, mixed; through grains. The colours of paraview/view.py.
+constexpr std::array kind_inks{Ink::red, Ink::blue, Ink::purple, Ink::green};
+
+std::size_t kind_of(const CrackFace& crack)
+{
+    return static_cast<std::size_t>(crack.mode == 1 ? 3 : crack.cause);
+}
 
 struct Outline {
     std::vector<double> x, y;
@@ -150,7 +158,7 @@ void plot_crack_map(const std::filesystem::path& stem, const Model& model, const
                     const std::vector<CrackFace>& cracks)
 {
     const Picture picture = outlines(model, state);
-    Frame frame{0.10, 0.78, 0.12, 0.88};
+    Frame frame{0.09, 0.75, 0.12, 0.88};
     Range x, y;
     fit(picture, frame, x, y);
     const double extent = std::max({std::fabs(x.low), std::fabs(x.high), std::fabs(y.low), std::fabs(y.high)});
@@ -159,8 +167,8 @@ void plot_crack_map(const std::filesystem::path& stem, const Model& model, const
         const Outline s = scaled(outline, prefix.factor);
         draw_line(s.x, s.y, ink, width);
     };
-    std::array<int, 3> count{};
-    for (const CrackFace& crack : cracks) ++count.at(static_cast<std::size_t>(crack.cause));
+    std::array<int, kind_inks.size()> count{};
+    for (const CrackFace& crack : cracks) ++count.at(kind_of(crack));
     const Range shown_x{x.low * prefix.factor, x.high * prefix.factor},
         shown_y{y.low * prefix.factor, y.high * prefix.factor};
     const double crack_width = cracks.size() > 2000 ? 2.0 : 3.5;
@@ -175,16 +183,19 @@ void plot_crack_map(const std::filesystem::path& stem, const Model& model, const
         for (const Outline& grain : picture.grains) draw(grain, Ink::light_grey, 0.8);
         for (const CrackFace& crack : cracks) {
             const auto line = trace(crack);
-            if (line) draw(*line, cause_inks.at(static_cast<std::size_t>(crack.cause)), crack_width);
+            if (line) draw(*line, kind_inks.at(kind_of(crack)), crack_width);
         }
         // Last, over the walls that reach out of the picture.
         draw_axes(frame, shown_x, shown_y, "x [" + prefix.name + "m]", "y [" + prefix.name + "m]", {.grid = false});
-        draw_legend(frame.right + 0.02, frame.top - 0.02,
-                    {{Ink::red, 3.5, "tension (" + std::to_string(count[0]) + ")"},
-                     {Ink::blue, 3.5, "shear (" + std::to_string(count[1]) + ")"},
-                     {Ink::purple, 3.5, "mixed (" + std::to_string(count[2]) + ")"},
-                     {Ink::light_grey, 1.5, "grains"},
-                     {Ink::pale_grey, 1.0, "walls", true}});
+        std::vector<LegendEntry> legend{{Ink::light_grey, 1.5, "grains"}, {Ink::pale_grey, 1.0, "walls", true}};
+        const auto crack_entry = [&](std::size_t kind, const char* name) {
+            legend.push_back({kind_inks.at(kind), 3.5, fmt::format("{} ({})", name, count.at(kind))});
+        };
+        crack_entry(0, "boundary: tension");
+        crack_entry(1, "boundary: shear");
+        crack_entry(2, "boundary: mixed");
+        crack_entry(3, "through grains");
+        draw_legend(frame.right + 0.02, frame.top - 0.02, legend);
     });
 }
 

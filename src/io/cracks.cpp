@@ -3,6 +3,7 @@
 #include "io/results.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace grainfrac {
 
@@ -48,6 +49,24 @@ std::vector<CrackFace> collect_cracks(const Model&, const State& state)
     std::stable_sort(cracks.begin(), cracks.end(),
                      [](const CrackFace& a, const CrackFace& b) { return a.time < b.time; });
     return cracks;
+}
+
+CrackSums crack_sums(const State& state)
+{
+    CrackSums sums;
+    const InterfaceBonds& interfaces = state.interfaces;
+    for (int i = 0; i < interfaces.size(); ++i) {
+        const bool through_grain = interfaces.transgranular[i] != 0;
+        if (through_grain) sums.transgranular_work += interfaces.fracture_work[i];
+        if (interfaces.failure_time[i] >= 0.0)
+            (through_grain ? sums.transgranular_area : sums.intergranular_area) += interfaces.area[i];
+    }
+    const ParallelBonds& parallels = state.parallels;
+    for (int i = 0; i < parallels.size(); ++i) {
+        if (parallels.cause[i] != 0)
+            sums.intergranular_area += std::numbers::pi * parallels.radius[i] * parallels.radius[i];
+    }
+    return sums;
 }
 
 }  // namespace grainfrac

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace grainfrac {
@@ -89,7 +90,7 @@ Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& fact
     make_snapshots();
     make_bonds();
     make_cracks();
-    make_fragments();
+    make_tables();
     file_.start_live();
 }
 
@@ -109,6 +110,7 @@ void Hdf5Results::make_snapshots()
     s.stress = field("stress", 6, "Pa");
     s.cluster = file_.make_growing<std::int32_t>("/snapshots/cluster", 2, {1, grain_chunk}, "1", true);
     s.damage = file_.make_growing<double>("/snapshots/damage", 2, {1, grain_chunk}, "1", true);
+    s.cleavage = file_.make_growing<double>("/snapshots/cleavage", 2, {1, grain_chunk}, "1", true);
 }
 
 void Hdf5Results::make_bonds()
@@ -154,18 +156,30 @@ void Hdf5Results::make_cracks()
     c.k_ii = number("K_II", "Pa m^0.5");
 }
 
-void Hdf5Results::make_fragments()
+template <class Row>
+Hdf5Results::Table Hdf5Results::make_table(const std::string& group)
 {
+    Table table;
+    Row{}.for_each_column([&](const char* name, const char* unit, const auto& value) {
+        using Value = std::decay_t<decltype(value)>;
+        const std::string path = group + "/" + name;
+        if constexpr (std::is_same_v<Value, Vec3>) {
+            table[name] = file_.make_growing<double>(path, 1, {table_chunk, 3}, unit, false);
+        } else {
+            table[name] = file_.make_growing<Value>(path, 1, {table_chunk}, unit, false);
+        }
+    });
+    return table;
+}
+
+void Hdf5Results::make_tables()
+{
+    file_.make_group("/clusters");
+    cluster_snapshot_ = file_.make_growing<std::int32_t>("/clusters/snapshot", 1, {table_chunk}, "1", false);
+    cluster_time_ = file_.make_growing<double>("/clusters/time", 1, {table_chunk}, "s", false);
+    clusters_ = make_table<Cluster>("/clusters");
     file_.make_group("/fragments");
-    auto& f = fragments_;
-    f.snapshot = file_.make_growing<std::int32_t>("/fragments/snapshot", 1, {table_chunk}, "1", false);
-    f.time = file_.make_growing<double>("/fragments/time", 1, {table_chunk}, "s", false);
-    f.cluster = file_.make_growing<std::int32_t>("/fragments/cluster", 1, {table_chunk}, "1", false);
-    f.grains = file_.make_growing<std::int32_t>("/fragments/grains", 1, {table_chunk}, "1", false);
-    f.mass = file_.make_growing<double>("/fragments/mass", 1, {table_chunk}, "kg", false);
-    f.volume = file_.make_growing<double>("/fragments/volume", 1, {table_chunk}, "m^3", false);
-    f.center = file_.make_growing<double>("/fragments/center", 1, {table_chunk, 3}, "m", false);
-    f.velocity = file_.make_growing<double>("/fragments/velocity", 1, {table_chunk, 3}, "m/s", false);
+    fragments_ = make_table<Fragment>("/fragments");
 }
 
 void Hdf5Results::append_history(const HistoryRow& row)
@@ -190,7 +204,7 @@ void Hdf5Results::append_snapshot(const Model& model, const State& state, const 
     bonds_.damage.write({snapshot, 0}, {1, damage.size()}, damage);
     bonds_.damage.flush();
     append_cracks(cracks);
-    append_fragments(collect_fragments(model, state, fields), state, static_cast<std::int32_t>(snapshot));
+    append_clusters(collect_clusters(model, state, fields), state, static_cast<std::int32_t>(snapshot));
     append_rows(snapshots_.step, std::vector<std::int64_t>{state.step});
     // Last: its length tells a live reader how many snapshots are whole.
     append_rows(snapshots_.time, std::vector<double>{state.time});
@@ -214,7 +228,7 @@ void Hdf5Results::append_grains(const State& state, const SnapshotFields& fields
     const hsize_t n = grain_rows_.size(), snapshot = snapshots_.time.rows();
     constexpr double absent = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> position(3 * n, absent), orientation(4 * n, absent), velocity(3 * n, absent),
-        stress(6 * n, absent), damage(n, absent);
+        stress(6 * n, absent), damage(n, absent), cleavage(n, absent);
     std::vector<std::int32_t> cluster(n, -1);
     const std::vector<double> bond_damage = mean_bond_damage(state);
     const auto put = [](std::vector<double>& values, hsize_t row, std::initializer_list<double> entries) {
@@ -232,6 +246,7 @@ void Hdf5Results::append_grains(const State& state, const SnapshotFields& fields
         put(stress, row,
             {s[0].x, s[1].y, s[2].z, 0.5 * (s[0].y + s[1].x), 0.5 * (s[1].z + s[2].y), 0.5 * (s[0].z + s[2].x)});
         damage[row] = bond_damage[i];
+        cleavage[row] = fields.cleavage.empty() ? 0.0 : fields.cleavage.at(i).worst.f;
         cluster[row] = fields.cluster.at(i);
     }
     const auto store = [&](Hdf5Growing& field, const auto& values, hsize_t width) {
@@ -244,6 +259,7 @@ void Hdf5Results::append_grains(const State& state, const SnapshotFields& fields
     store(snapshots_.velocity, velocity, 3);
     store(snapshots_.stress, stress, 6);
     store(snapshots_.damage, damage, 0);
+    store(snapshots_.cleavage, cleavage, 0);
     store(snapshots_.cluster, cluster, 0);
 }
 
@@ -336,27 +352,44 @@ void Hdf5Results::append_cracks(const std::vector<CrackFace>& cracks)
     append_column<double>(c.time, fresh, [](const CrackFace& f) { return f.time; });
 }
 
-void Hdf5Results::append_fragments(const std::vector<Fragment>& fragments, const State& state, std::int32_t snapshot)
+template <class Row>
+void Hdf5Results::append_table(Table& table, const std::vector<Row>& rows)
 {
-    auto& f = fragments_;
-    append_column<std::int32_t>(f.snapshot, fragments, [&](const Fragment&) { return snapshot; });
-    append_column<std::int32_t>(f.cluster, fragments, [](const Fragment& e) { return e.cluster; });
-    append_column<std::int32_t>(f.grains, fragments, [](const Fragment& e) { return e.grains; });
-    append_column<double>(f.mass, fragments, [](const Fragment& e) { return e.mass; });
-    append_column<double>(f.volume, fragments, [](const Fragment& e) { return e.volume; });
-    append_vec3_column(f.center, fragments, [](const Fragment& e) { return e.center; });
-    append_vec3_column(f.velocity, fragments, [](const Fragment& e) { return e.velocity; });
-    append_column<double>(f.time, fragments, [&](const Fragment&) { return state.time; });
+    std::map<std::string, std::vector<double>> numbers;
+    std::map<std::string, std::vector<std::int32_t>> integers;
+    for (const Row& row : rows) {
+        row.for_each_column([&](const char* name, const char*, const auto& value) {
+            using Value = std::decay_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, Vec3>) {
+                append_vec3(numbers[name], value);
+            } else if constexpr (std::is_same_v<Value, double>) {
+                numbers[name].push_back(value);
+            } else {
+                integers[name].push_back(value);
+            }
+        });
+    }
+    for (const auto& [name, values] : numbers)
+        append_rows(table.at(name), values, values.size() / rows.size() == 3 ? 3 : 0);
+    for (const auto& [name, values] : integers) append_rows(table.at(name), values);
+}
+
+void Hdf5Results::append_clusters(const std::vector<Cluster>& clusters, const State& state, std::int32_t snapshot)
+{
+    append_rows(cluster_snapshot_, std::vector<std::int32_t>(clusters.size(), snapshot));
+    append_table(clusters_, clusters);
+    append_rows(cluster_time_, std::vector<double>(clusters.size(), state.time));
 }
 
 void Hdf5Results::finish(const Model& model, const State& state, const SnapshotFields& fields,
                          const std::vector<CrackFace>& cracks)
 {
+    append_table(fragments_, collect_fragments(model, state, fields));
     if (last_step_ == state.step) return;
     constexpr std::int32_t after_the_last = -1;
     update_bonds(state);
     append_cracks(cracks);
-    append_fragments(collect_fragments(model, state, fields), state, after_the_last);
+    append_clusters(collect_clusters(model, state, fields), state, after_the_last);
 }
 
 void Hdf5Results::close()
@@ -366,7 +399,10 @@ void Hdf5Results::close()
     snapshots_ = {};
     bonds_ = {};
     cracks_ = {};
-    fragments_ = {};
+    cluster_snapshot_ = {};
+    cluster_time_ = {};
+    clusters_.clear();
+    fragments_.clear();
     file_.close();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// results.h5: history, snapshots, bonds, cracks and fragments in one file that can be read while it grows (schema:
-// docs/output.md).
+// results.h5: history, snapshots, bonds, cracks, clusters and fragments in one file that can be read while it grows
+// (schema: docs/output.md).
 #pragma once
 
 #include "io/fragments.h"
@@ -8,13 +8,14 @@
 #include "io/results.h"
 
 #include <map>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 
 namespace grainfrac {
 
 /// Rises when a reader of the file has to change.
-inline constexpr std::int64_t results_schema = 1;
+inline constexpr std::int64_t results_schema = 2;
 
 /// The growing file. Everything given is flushed when a call returns; errors throw std::runtime_error.
 class Hdf5Results {
@@ -24,7 +25,7 @@ public:
     void append_history(const HistoryRow& row);
     void append_snapshot(const Model& model, const State& state, const SnapshotFields& fields,
                          const std::vector<CrackFace>& cracks);
-    /// What happened after the last snapshot: bonds, cracks and fragments.
+    /// What happened after the last snapshot: bonds, cracks and clusters; and the fragments of the end.
     void finish(const Model& model, const State& state, const SnapshotFields& fields,
                 const std::vector<CrackFace>& cracks);
     void close();
@@ -33,7 +34,7 @@ private:
     void make_snapshots();
     void make_bonds();
     void make_cracks();
-    void make_fragments();
+    void make_tables();
     void append_grains(const State& state, const SnapshotFields& fields);
     void write_bond_table(const State& state, const std::vector<int>& order);
     struct BondRow {
@@ -42,12 +43,18 @@ private:
     };
     std::vector<BondRow> update_bonds(const State& state);
     void append_cracks(const std::vector<CrackFace>& cracks);
-    void append_fragments(const std::vector<Fragment>& fragments, const State& state, std::int32_t snapshot);
+    /// Rows of one struct as datasets of `group`, one for each of its columns.
+    using Table = std::map<std::string, Hdf5Growing>;
+    template <class Row>
+    Table make_table(const std::string& group);
+    template <class Row>
+    void append_table(Table& table, const std::vector<Row>& rows);
+    void append_clusters(const std::vector<Cluster>& clusters, const State& state, std::int32_t snapshot);
 
     Hdf5File file_;
     Hdf5Growing history_;
     struct {
-        Hdf5Growing time, step, grain_id, position, orientation, velocity, stress, cluster, damage;
+        Hdf5Growing time, step, grain_id, position, orientation, velocity, stress, cluster, damage, cleavage;
     } snapshots_;
     struct {
         Hdf5Growing kind, grain_a, grain_b, area, normal, normal_stiffness, shear_stiffness, damage, failure_time,
@@ -56,9 +63,8 @@ private:
     struct {
         Hdf5Growing time, first_damage_time, mode, cause, grain_a, grain_b, area, center, normal, opening, k_i, k_ii;
     } cracks_;
-    struct {
-        Hdf5Growing snapshot, time, cluster, grains, mass, volume, center, velocity;
-    } fragments_;
+    Hdf5Growing cluster_snapshot_, cluster_time_;
+    Table clusters_, fragments_;
     std::unordered_map<std::int32_t, hsize_t> grain_rows_;
     std::map<std::tuple<std::int32_t, std::int32_t, int>, hsize_t> bond_rows_;  // ids of the grains, number in the pair
     std::vector<double> bond_failure_;

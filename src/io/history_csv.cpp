@@ -2,6 +2,7 @@
 #include "io/history_csv.h"
 
 #include "io/atomic_file.h"
+#include "io/csv_row.h"
 
 #include <fmt/format.h>
 
@@ -15,15 +16,6 @@
 namespace grainfrac {
 
 namespace {
-
-template <class Number>
-void append_number(std::string& line, Number value)
-{
-    char text[40];  // the shortest text that reads back as the same double has at most 24 characters
-    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-    if (!line.empty()) line += ',';
-    line.append(text, end);
-}
 
 std::vector<std::string> split(const std::string& line)
 {
@@ -61,7 +53,7 @@ HistoryCsv::HistoryCsv(std::filesystem::path path, const RunFacts& facts)
 void HistoryCsv::append(const HistoryRow& row)
 {
     std::string line;
-    row.for_each_column([&](const char*, auto value) { append_number(line, value); });
+    row.for_each_column([&](const char*, auto value) { append_cell(line, value); });
     put(line + '\n');
 }
 

@@ -89,7 +89,8 @@ void plot_energies(const std::filesystem::path& stem, const HistoryTable& histor
 }
 
 void write_plots(const std::filesystem::path& folder, const Model& model, const State& state,
-                 const SnapshotFields& fields, const std::vector<CrackFace>& cracks)
+                 const std::vector<CrackFace>& cracks, const std::vector<Fragment>& fragments,
+                 const std::vector<Cluster>& clusters)
 {
     const std::filesystem::path plots = folder / "plots";
     std::string failures;
@@ -105,7 +106,8 @@ void write_plots(const std::filesystem::path& folder, const Model& model, const 
     attempt([&] { plot_energies(plots / "energies", read_history_csv(folder / "history.csv")); });
     attempt([&] { plot_crack_map(plots / "crack_map", model, state, cracks); });
     attempt([&] { plot_crack_orientation(plots / "crack_orientation", cracks); });
-    attempt([&] { plot_fragment_sizes(plots / "fragment_sizes", collect_fragments(model, state, fields)); });
+    attempt([&] { plot_transgranular_share(plots / "transgranular_share", read_history_csv(folder / "history.csv")); });
+    attempt([&] { plot_fragment_sizes(plots / "fragment_sizes", fragments, clusters); });
     if (!failures.empty()) throw std::runtime_error(failures);
 }
 

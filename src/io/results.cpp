@@ -3,6 +3,7 @@
 
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
+#include "io/fragments.h"
 #include "io/hdf5_results.h"
 #include "io/history_csv.h"
 #include "io/plots.h"
@@ -128,10 +129,13 @@ void ResultFolder::finish(const std::string& summary_json, const Model& model, c
     impl_->table.value().finish(model, state, fields, cracks);
     impl_->table.value().close();
     impl_->history.value().close();
+    const std::vector<Cluster> clusters = collect_clusters(model, state, fields);
+    const std::vector<Fragment> fragments = collect_fragments(model, state, fields);
+    write_fragment_tables(impl_->folder, impl_->facts, fragments, clusters);
     write_file(impl_->folder / "summary.json", summary_json);
     if (!plots) return;
     try {
-        write_plots(impl_->folder, model, state, fields, cracks);
+        write_plots(impl_->folder, model, state, cracks, fragments, clusters);
     } catch (const std::exception& e) {
         throw PlotError(e.what());
     }

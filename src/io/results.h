@@ -18,6 +18,13 @@
 
 namespace grainfrac {
 
+/// How much broke where.
+struct CrackSums {
+    double intergranular_area = 0.0;  ///< of broken faces between grains, and of broken parallel bonds [m^2]
+    double transgranular_area = 0.0;  ///< of broken faces within what was one grain [m^2]
+    double transgranular_work = 0.0;  ///< dissipated by damage of such faces, also of those that still hold [J]
+};
+
 /// One row of history.csv; the csv and the HDF5 table are both made from for_each_column. Counts are visited as
 /// integers.
 struct HistoryRow {
@@ -31,6 +38,7 @@ struct HistoryRow {
     double unbalanced_force_ratio = 0.0;  ///< largest resultant over mean interaction force [-]
     double platen_imbalance = 0.0;        ///< |F_top - F_bottom| over their mean [-]
     std::int64_t broken_bonds_tension = 0, broken_bonds_shear = 0, split_grains = 0, fragments = 0;
+    CrackSums cracks;
 
     template <class Visit>  // visit(name with unit, value)
     void for_each_column(Visit&& visit) const
@@ -57,6 +65,9 @@ struct HistoryRow {
         visit("broken_bonds_shear", broken_bonds_shear);
         visit("split_grains", split_grains);
         visit("fragments", fragments);
+        visit("intergranular_area_m2", cracks.intergranular_area);
+        visit("transgranular_area_m2", cracks.transgranular_area);
+        visit("transgranular_fracture_work_J", cracks.transgranular_work);
     }
 };
 
@@ -82,6 +93,9 @@ struct CrackFace {
 };
 /// Every interface that failed and every broken parallel bond (as a 16-gon), in the order of their times.
 std::vector<CrackFace> collect_cracks(const Model& model, const State& state);
+
+/// Of the state as it is.
+CrackSums crack_sums(const State& state);
 
 /// Run facts that stand in every file's head.
 struct RunFacts {
@@ -114,7 +128,7 @@ public:
     void write_snapshot(const Model& model, const State& state, const SnapshotFields& fields, bool contacts);
     /// checkpoint/step_N.h5: everything that State::... for_each_array walks, checksummed; keeps the newest two.
     void write_checkpoint(const Model& model, const State& state);
-    /// summary.json (text made by the caller), plots/*, paraview/view.py, bonds/cracks/fragments tables of results.h5.
+    /// summary.json (text made by the caller), fragments.csv, clusters.csv, plots/*, the tables of results.h5.
     /// Throws PlotError, with everything else written, if a plot could not be made; `plots` false: none are made.
     void finish(const std::string& summary_json, const Model& model, const State& state, const SnapshotFields& fields,
                 bool plots = true);
@@ -132,7 +146,8 @@ struct Curve {
 /// Line plot as SVG and PNG (`stem`.svg, `stem`.png), made with PLplot; needs no display.
 void plot_curves(const std::filesystem::path& stem, const std::string& title, const std::string& x_label,
                  const std::string& y_label, const std::vector<Curve>& curves);
-/// Crack map: traces of the cracks in the xy plane coloured by cause over the outline of the grains; SVG and PNG.
+/// Crack map: traces of the cracks in the xy plane over the outline of the grains, those between grains coloured by
+/// cause, those through grains in a colour of their own; SVG and PNG.
 void plot_crack_map(const std::filesystem::path& stem, const Model& model, const State& state,
                     const std::vector<CrackFace>& cracks);
 

@@ -8,7 +8,14 @@ std::string view_script()
     return R"py(# Opens this result folder in ParaView (5.9 or newer):
 #
 #   paraview --script=view.py
-#   pvpython view.py --save picture.png [--time last|first|SECONDS] [--color FIELD] [--size 1600x1200]
+#   pvpython view.py --save picture.png [--view cleavage] [--time last|first|SECONDS] [--color FIELD] [--size 1600x1200]
+#
+# Three views, in ParaView a tab each above the picture, of which the first is in front; --view takes one of them alone:
+#   stress     grains coloured by GRAIN_COLOR or --color
+#   clusters   grains coloured by what bonds still hold together
+#   cleavage   grains coloured by the load over the load that splits them (K/K_c)
+# In each, "cracks between grains" (coloured by what broke them) and "cracks through grains" are layers of their own, as
+# are walls, bonds and contacts: the eyes beside their names in the Pipeline Browser turn them on and off.
 #
 # Written by grainfrac beside the .pvd files, which it finds wherever the folder is moved to. Layers whose .pvd is
 # missing are left out. The choices below are meant to be changed.
@@ -19,21 +26,37 @@ import sys
 
 from paraview.simple import *
 
-GRAIN_COLOR = "von_mises"  # von_mises, pressure, stress:YY, cluster, material, damage, velocity, displacement
+GRAIN_COLOR = "von_mises"  # von_mises, pressure, stress:YY, generation, material, damage, velocity, displacement
 GRAIN_OPACITY = 1.0        # below 1: cracks inside show through
-CRACK_COLORS = {           # of the field cause
+CRACK_COLORS = {           # between grains, of the field cause
     "tension": (0.84, 0.10, 0.11),
     "shear": (0.13, 0.40, 0.85),
     "mixed": (0.60, 0.25, 0.70),
 }
+THROUGH_GRAINS = (0.0, 0.62, 0.45)
+CLUSTER_COLORS = [         # the largest first
+    (0.80, 0.82, 0.85), (0.34, 0.71, 0.91), (0.90, 0.62, 0.00), (0.94, 0.89, 0.26), (0.80, 0.47, 0.65),
+    (0.00, 0.45, 0.70), (0.60, 0.45, 0.30), (0.72, 0.85, 0.55), (0.98, 0.75, 0.70),
+]
+SMALL_CLUSTERS = (0.45, 0.45, 0.45)  # all others
 CRACK_EDGE_WIDTH = 4.0     # pixels
+LOW_TO_HIGH = [(1.0, 1.0, 1.0), (0.35, 0.38, 0.42)]  # lowest to highest value; cracks stand out
+NEGATIVE_TO_POSITIVE = [(0.20, 0.42, 0.70), (1.0, 1.0, 1.0), (0.90, 0.55, 0.10)]  # of one with signs
+CLEAVAGE_COLORS = [(1.0, 1.0, 1.0), (1.0, 0.85, 0.50), (0.55, 0.25, 0.02)]  # from 0 to 1
+VIEWS = ("stress", "clusters", "cleavage")
+TITLES = {                 # of the colour legends
+    "von_mises": "von Mises stress [Pa]", "pressure": "mean stress [Pa]", "stress": "stress%s [Pa]",
+    "velocity": "velocity%s [m/s]", "displacement": "displacement%s [m]", "damage": "damage of its bonds",
+    "cleavage": "cleavage: K/K_c",
+}
 
 
 def arguments():
     parser = argparse.ArgumentParser(description="Show or draw a grainfrac result folder.", allow_abbrev=False)
-    parser.add_argument("--save", metavar="PICTURE", help="draw into this file (.png) and leave")
+    parser.add_argument("--save", metavar="PICTURE", help="draw one view into this file (.png) and leave")
+    parser.add_argument("--view", choices=VIEWS, help="this view alone (default: all; with --save: stress)")
     parser.add_argument("--time", default="last", help="last, first, or a time in seconds (the nearest frame is taken)")
-    parser.add_argument("--color", default=GRAIN_COLOR, help="field of the grains; stress:XX for a component")
+    parser.add_argument("--color", default=GRAIN_COLOR, help="field of the grains in view stress; or stress:XX")
     parser.add_argument("--size", default="1600x1200", help="of the picture, in pixels")
     return parser.parse_known_args(getattr(sys, "argv", [""])[1:])[0]  # ParaView's own arguments are none of ours
 
@@ -52,11 +75,84 @@ def has_cells(reader):
     return reader is not None and reader.GetDataInformation().GetNumberOfCells() > 0
 
 
-def color_by(display, field, view):
+def only_mode(cracks, name, mode):
+    """The cracks whose field mode has this value."""
+    layer = Threshold(registrationName=name, Input=cracks)
+    layer.Scalars = ["CELLS", "mode"]
+    if "LowerThreshold" in layer.ListProperties():
+        layer.LowerThreshold, layer.UpperThreshold = mode - 0.5, mode + 0.5
+    else:  # before ParaView 5.10
+        layer.ThresholdRange = [mode - 0.5, mode + 0.5]
+    return layer
+
+
+def legend(display, field, view, title, where, height, in_categories=True):
+    """The colour legend of a display: where its lower left corner is, and how high it is, in parts of the view."""
+    bar = GetScalarBar(GetColorTransferFunction(field, display, separate=display.UseSeparateColorMap == 1), view)
+    bar.Title, bar.ComponentTitle, bar.HorizontalTitle = title, "", 1
+    bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", where, height
+    bar.Orientation = "Vertical"
+    bar.TitleJustification = "Left"
+    bar.TitleFontSize = bar.LabelFontSize = 16
+    bar.TitleColor = bar.LabelColor = [0.0, 0.0, 0.0]
+    bar.RangeLabelFormat = "%.3g"
+    ticks, names = ("left/bottom", "right/top") if in_categories else ("right/top", "left/bottom")
+    bar.TextPosition = "Ticks %s, annotations %s" % (ticks, names)
+    display.SetScalarBarVisibility(view, True)
+    return bar
+
+
+def color_by_categories(display, field, categories):
+    """`categories`: value, name and colour of each."""
+    ColorBy(display, ("CELLS", field), separate=True)
+    table = GetColorTransferFunction(field, display, separate=True)
+    table.InterpretValuesAsCategories = 1
+    table.AnnotationsInitialized = 1
+    table.Annotations = [text for value, name, _ in categories for text in (str(value), name)]
+    table.IndexedColors = [part for _, _, color in categories for part in color]
+    table.IndexedOpacities = [1.0] * len(categories)
+    return table
+
+
+def color_by_cluster(display, layer, view):
+    count = int(layer.CellData["cluster"].GetRange()[1]) + 1
+    categories = [(k, "0, the largest" if k == 0 else "%d" % k, color) for k, color in enumerate(CLUSTER_COLORS)]
+    color_by_categories(display, "cluster", categories[:max(1, count)]).NanColor = SMALL_CLUSTERS
+    title = "clusters: %d" % count + ("\n(smaller ones dark)" if count > len(categories) else "")
+    legend(display, "cluster", view, title, [0.80, 0.06], min(0.38, 0.06 * max(1, count)))
+
+
+def usual_range(layer, name, component):
+    """All but the lowest and the highest 2 % of a field's values: a few crushed grains would take the whole scale."""
+    data = servermanager.Fetch(layer).GetCellData().GetArray(name)
+    index = next((c for c in range(data.GetNumberOfComponents()) if data.GetComponentName(c) == component), None)
+    values = []
+    for cell in range(data.GetNumberOfTuples()):
+        entries = data.GetTuple(cell)
+        values.append(entries[index] if index is not None else entries[0] if len(entries) == 1
+                      else sum(x * x for x in entries) ** 0.5)
+    values.sort()
+    low, high = values[int(0.02 * (len(values) - 1))], values[int(0.98 * (len(values) - 1) + 0.5)]
+    return (low, high) if high > low else (low, low + max(1.0, abs(low)))
+
+
+def color_by_field(display, layer, field, view):
     name, _, component = field.partition(":")
     ColorBy(display, ("CELLS", name, component) if component else ("CELLS", name))
-    display.RescaleTransferFunctionToDataRange(False, True)
-    display.SetScalarBarVisibility(view, True)
+    table = GetColorTransferFunction(name)
+    if name == "cleavage":
+        low, high, colors = 0.0, 1.0, CLEAVAGE_COLORS
+    else:
+        low, high = usual_range(layer, name, component)
+        colors = LOW_TO_HIGH
+        if low < 0.0:
+            colors, high = NEGATIVE_TO_POSITIVE, max(-low, high)
+            low = -high
+    table.RGBPoints = [part for k, color in enumerate(colors)
+                       for part in (low + (high - low) * k / (len(colors) - 1),) + tuple(color)]
+    table.ColorSpace = "RGB"
+    title = TITLES.get(name, name).replace("%s", " " + component if component else "")
+    legend(display, name, view, title, [0.80, 0.06], 0.38, in_categories=False)
 
 
 def show_grains(grains, view, field):
@@ -65,43 +161,34 @@ def show_grains(grains, view, field):
     display.EdgeColor = [0.25, 0.25, 0.25]
     display.LineWidth = 0.5
     display.Opacity = GRAIN_OPACITY
+    display.Ambient, display.Diffuse = 0.5, 0.6  # a face seen from the front has the colour of the legend
     names = [grains.CellData.GetArray(i).GetName() for i in range(grains.CellData.GetNumberOfArrays())]
-    if field.partition(":")[0] in names:
-        color_by(display, field, view)
-    elif names:
-        print("view.py: the grains have no field '%s'; there are: %s" % (field, ", ".join(names)))
-    return display
+    if field.partition(":")[0] not in names:
+        if names:
+            print("view.py: the grains have no field '%s'; there are: %s" % (field, ", ".join(names)))
+    elif field == "cluster":
+        color_by_cluster(display, grains, view)
+    else:
+        color_by_field(display, grains, field, view)
 
 
-def color_cracks(display, view):
-    ColorBy(display, ("CELLS", "cause"), separate=True)
-    colors = GetColorTransferFunction("cause", display, separate=True)
-    colors.InterpretValuesAsCategories = 1
-    colors.AnnotationsInitialized = 1
-    annotations, indexed = [], []
-    for value, (name, rgb) in enumerate(CRACK_COLORS.items()):
-        annotations += [str(value), name]
-        indexed += list(rgb)
-    colors.Annotations = annotations
-    colors.IndexedColors = indexed
-    colors.IndexedOpacities = [1.0] * len(CRACK_COLORS)
-
-
-def show_cracks(cracks, view):
+def show_cracks(layers, view, field, categories, title, where, height):
     """Faces, and their outlines as thick lines: of a closed crack these are all one sees from outside."""
-    surface = Show(cracks, view)
-    surface.SetRepresentationType("Surface")
-    color_cracks(surface, view)
-    edges = ExtractEdges(registrationName="crack edges", Input=cracks)
-    lines = Show(edges, view)
-    lines.LineWidth = CRACK_EDGE_WIDTH
-    color_cracks(lines, view)
-    lines.SetScalarBarVisibility(view, True)
+    for layer in layers:
+        display = Show(layer, view)
+        display.SetRepresentationType("Surface")
+        display.LineWidth = CRACK_EDGE_WIDTH
+        if layer.CellData.GetArray(field) is None:  # none broke so yet
+            continue
+        color_by_categories(display, field, categories)
+    if layers[-1].CellData.GetArray(field) is not None:
+        legend(display, field, view, title, where, height)
 
 
 def show_walls(walls, view):
     display = Show(walls, view)
     display.SetRepresentationType("Surface")
+    display.Interpolation = "Flat"  # the ends of rollers are flat
     display.ColorArrayName = ["POINTS", ""]  # ColorBy(display, None) fails in ParaView 5.11
     display.AmbientColor = display.DiffuseColor = [0.6, 0.6, 0.6]
     display.Opacity = 0.3
@@ -128,7 +215,7 @@ def go_to(time):
 
 
 def place_camera(view, layer):
-    """Along -z, the layer filling the height."""
+    """Along -z, the layer filling the height, left of the legends."""
     view.CameraParallelProjection = 1
     view.CameraViewUp = [0.0, 1.0, 0.0]
     bounds = layer.GetDataInformation().GetBounds() if has_cells(layer) else None
@@ -137,36 +224,38 @@ def place_camera(view, layer):
         return
     center = [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)]
     extent = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
+    width, height = view.ViewSize
+    # Half of the view's height; the legends take the right quarter.
+    scale = 0.55 * max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) * height / (0.74 * width))
+    center[0] += 0.11 * 2.0 * scale * width / height
     view.CameraFocalPoint = center
     view.CameraPosition = [center[0], center[1], center[2] + 5.0 * extent]
-    view.CameraParallelScale = 0.6 * max(bounds[3] - bounds[2], 0.75 * (bounds[1] - bounds[0]))
+    view.CameraParallelScale = scale
     view.CenterOfRotation = center
 
 
-def main():
-    options = arguments()
-    width, _, height = options.size.partition("x")
-    view = GetActiveViewOrCreate("RenderView")
-    view.OrientationAxesVisibility = 1
-    if options.save:
-        view.ViewSize = [int(width), int(height)]  # or the text is scaled up with the picture
-    try:
-        LoadPalette("WhiteBackground")
-    except Exception:  # another version has other palettes; the picture is the same but for its background
-        pass
+def open_layers():
     layers = {name: open_layer(name) for name in ("grains", "bonds", "contacts", "cracks", "walls")}
-    if all(layer is None for layer in layers.values()):
-        print("view.py: no .pvd file beside this script")
-        return
-    go_to(options.time)
-    for layer in layers.values():
-        if layer is not None:
-            layer.UpdatePipeline(GetAnimationScene().AnimationTime)
+    cracks = layers["cracks"]
+    for name, mode in (("cracks between grains", 0), ("cracks through grains", 1)):
+        if cracks is None:
+            layers[name] = None
+            continue
+        faces = only_mode(cracks, name, mode)
+        layers[name] = (faces, ExtractEdges(registrationName=name + ", outlines", Input=faces))
+    return layers
+
+
+def fill_view(view, layers, field):
     # A layer without cells at this time has no fields to be coloured by; it is shown all the same, plainly.
     if layers["grains"] is not None:
-        show_grains(layers["grains"], view, options.color)
+        show_grains(layers["grains"], view, field)
     if layers["cracks"] is not None:
-        show_cracks(layers["cracks"], view)
+        causes = [(value, name, color) for value, (name, color) in enumerate(CRACK_COLORS.items())]
+        show_cracks(layers["cracks between grains"], view, "cause", causes, "cracks between grains", [0.80, 0.74], 0.17)
+        show_cracks(layers["cracks through grains"], view, "mode", [(1, "broken", THROUGH_GRAINS)],
+                    "cracks through grains", [0.80, 0.56], 0.08)
+        Hide(layers["cracks"], view)
     if layers["walls"] is not None:
         show_walls(layers["walls"], view)
     if layers["bonds"] is not None:
@@ -174,12 +263,55 @@ def main():
     if layers["contacts"] is not None:
         show_hidden(layers["contacts"], view, "normal_force", "Points", "POINTS")
     place_camera(view, layers["grains"])
+
+
+def new_view(name, first):
+    """A view in a tab of its own."""
+    if first:
+        view = GetActiveViewOrCreate("RenderView")
+        RenameLayout(name, GetLayout(view))
+    else:
+        layout = CreateLayout(name)
+        view = CreateView("RenderView")
+        AssignViewToLayout(view=view, layout=layout)
+    view.OrientationAxesVisibility = 1
+    return view
+
+
+def main():
+    options = arguments()
+    width, _, height = options.size.partition("x")
+    try:
+        LoadPalette("WhiteBackground")
+    except Exception:  # another version has other palettes; the picture is the same but for its background
+        pass
+    layers = open_layers()
+    if all(layer is None for layer in layers.values()):
+        print("view.py: no .pvd file beside this script")
+        return
+    fields = {"stress": options.color, "clusters": "cluster", "cleavage": "cleavage"}
+    names = [options.view] if options.view else [VIEWS[0]] if options.save else VIEWS
+    views = []
+    for name in names:
+        view = new_view(name, not views)
+        if options.save:
+            view.ViewSize = [int(width), int(height)]  # or the text is scaled up with the picture
+        if not views:
+            go_to(options.time)
+            for layer in layers.values():
+                for source in layer if isinstance(layer, tuple) else (layer,):
+                    if source is not None:
+                        source.UpdatePipeline(GetAnimationScene().AnimationTime)
+        fill_view(view, layers, fields[name])
+        views.append(view)
+    SetActiveView(views[0])
     if layers["grains"] is not None:
         SetActiveSource(layers["grains"])
     if options.save:
-        SaveScreenshot(options.save, view, ImageResolution=[int(width), int(height)])
+        SaveScreenshot(options.save, views[0], ImageResolution=[int(width), int(height)])
     else:
-        Render(view)
+        for view in views:
+            Render(view)
 
 
 main()

@@ -328,9 +328,18 @@ TEST_CASE("what a split refuses, and a free surface")
     const auto report = split_grains(a.model, a.state, {r});
     CHECK(report[0].status == SplitStatus::done);
     CHECK(report[0].inserted_energy == 0.0);
-    CHECK(a.state.interfaces.size() == interfaces + 4);  // the four side faces are shared out, no new surface
-    CHECK(std::count(a.state.interfaces.transgranular.host().begin(), a.state.interfaces.transgranular.host().end(),
-                     1) == 0);
+    const InterfaceBonds& f = a.state.interfaces;
+    CHECK(f.size() == interfaces + 5);  // the four side faces are shared out; the new surface is a crack from the start
+    CHECK(std::count(f.transgranular.host().begin(), f.transgranular.host().end(), 1) == 1);
+    for (int i = 0; i < f.size(); ++i) {
+        if (f.transgranular[i] == 0) continue;
+        CHECK(f.area[i] == Approx(report[0].area).epsilon(1e-12));
+        CHECK(f.failure_time[i] == a.state.time);
+        CHECK(f.retired[i] == 1);
+        CHECK(f.stored_energy[i] == 0.0);
+        CHECK(f.inserted_work[i] == 0.0);
+        CHECK(a.state.slots.force[i] == Vec3{});
+    }
 }
 
 TEST_CASE("a refused plane is remembered, the others stay candidates; parts start afresh")

@@ -3,6 +3,7 @@
 // every number that must come out.
 #pragma once
 
+#include "geometry/mass_properties.h"
 #include "geometry/shared_faces.h"
 #include "io/results.h"
 
@@ -41,6 +42,9 @@ inline void add_body(State& state, int id, int shape, int wall, const Vec3& posi
     bodies.velocity.host()[i] = {0.1 * i, -0.2, 0.3};
     bodies.angular_velocity.host()[i] = {1.0, 2.0, 3.0 + i};
     bodies.crystal.host()[i] = from_axis_angle({0, 0, 1}, 0.3 * i);
+    bodies.inertia.host()[i] = density * mass_properties(make_hexagonal_prism(side, thickness)).principal_inertia;
+    bodies.origin.host()[i] = id;
+    bodies.parent.host()[i] = -1;
 }
 
 /// The face between bodies a and b, with its corners as quadrature points.

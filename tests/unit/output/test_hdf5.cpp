@@ -119,7 +119,7 @@ TEST_CASE("results.h5 holds what was appended", "[output][hdf5]")
     const std::string columns = file.text_attribute("/history", "columns");
     CHECK(columns.substr(0, 19) == "step,time_s,displac");
     const auto extents = file.extents("/history");
-    REQUIRE(extents == std::vector<hsize_t>{3, 22});
+    REQUIRE(extents == std::vector<hsize_t>{3, 25});
     CHECK(file.read<double>("/history")[2 * extents[1]] == 2e6);
 
     // Rows by grain id, whatever the order of the bodies.
@@ -143,9 +143,13 @@ TEST_CASE("results.h5 holds what was appended", "[output][hdf5]")
     CHECK(file.extents("/cracks/center") == std::vector<hsize_t>{3, 3});
     CHECK(file.read<double>("/cracks/center")[0] ==
           Approx(0.5 * std::sqrt(3.0) * sample::side - 0.5 * sample::crack_opening));
-    CHECK(file.read<std::int32_t>("/fragments/snapshot") == std::vector<std::int32_t>{0, 0, -1, -1});
-    CHECK(file.read<std::int32_t>("/fragments/grains") == std::vector<std::int32_t>{2, 1, 2, 1});
-    CHECK(file.read<double>("/fragments/volume")[0] == Approx(2.0 * sample::prism_volume).epsilon(1e-12));
+    CHECK(file.read<std::int32_t>("/clusters/snapshot") == std::vector<std::int32_t>{0, 0, -1, -1});
+    CHECK(file.read<std::int32_t>("/clusters/fragments") == std::vector<std::int32_t>{2, 1, 2, 1});
+    CHECK(file.read<double>("/clusters/volume")[0] == Approx(2.0 * sample::prism_volume).epsilon(1e-12));
+    CHECK(file.extents("/clusters/axes") == std::vector<hsize_t>{4, 3});
+    CHECK(file.read<std::int32_t>("/fragments/id") == std::vector<std::int32_t>{0, 1, 2});
+    CHECK(file.read<std::int32_t>("/fragments/cluster") == std::vector<std::int32_t>{0, 0, 1});
+    CHECK(file.text_attribute("/fragments/volume", "unit") == "m^3");
 }
 
 TEST_CASE("a grain that comes later gets its own row", "[output][hdf5]")

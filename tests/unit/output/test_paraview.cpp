@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ParaView layers, read back with VTK's own readers.
 #ifdef GF_HAVE_VTK
+#include "cleaving_run.h"
 #include "io/atomic_file.h"
 #include "io/bond_faces.h"
 #include "io/paraview.h"
@@ -275,15 +276,9 @@ TEST_CASE("the series enter each frame with its time", "[output][paraview]")
 TEST_CASE("VTK's readers load every file that a run leaves, and every series names files that there are")
 {
     const sample::TemporaryFolder folder;
-    const std::string command =
-        "'" GF_PROGRAM "' run '" GF_SOURCE_DIR
-        "/examples/brazilian/brazilian.toml' -q --no-report --threads 1 --out '" +
-        (folder / "run").string() +
-        "' --set parts.disc.side='\"1.2 mm\"' --set test.platen_speed='\"200 mm/s\"' --set "
-        "bonds[0].tensile_strength='\"60 MPa\"' --set bonds[0].cohesion='\"150 MPa\"' > /dev/null 2>&1";
-    REQUIRE(std::system(command.c_str()) == 0);
+    const std::filesystem::path run = sample::run_cleaving_disc(folder);
     int grids = 0, surfaces = 0, named = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "run/paraview")) {
+    for (const auto& entry : std::filesystem::directory_iterator(run / "paraview")) {
         const std::string extension = entry.path().extension().string();
         if (extension == ".vtu") {
             CHECK(read_grid(entry.path())->GetNumberOfCells() > 0);
@@ -296,7 +291,7 @@ TEST_CASE("VTK's readers load every file that a run leaves, and every series nam
             const std::string text((std::istreambuf_iterator<char>(in)), {});
             for (std::size_t at = text.find("file=\""); at != std::string::npos; at = text.find("file=\"", at + 6)) {
                 const std::string name = text.substr(at + 6, text.find('"', at + 6) - at - 6);
-                CHECK(std::filesystem::exists(folder / "run/paraview" / name));
+                CHECK(std::filesystem::exists(run / "paraview" / name));
                 ++named;
             }
         }

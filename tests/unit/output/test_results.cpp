@@ -89,7 +89,8 @@ TEST_CASE("a whole run leaves a whole folder", "[output][results]")
     CHECK(fs::exists(out / "paraview" / "grains_000002.vtu"));
     CHECK(fs::exists(out / "paraview" / "view.py"));
 #endif
-    for (const char* name : {"load_displacement", "energies", "crack_map", "crack_orientation", "fragment_sizes"})
+    for (const char* name :
+         {"load_displacement", "energies", "crack_map", "crack_orientation", "fragment_sizes", "transgranular_share"})
         check_plot(out / "plots" / name);
     for (const auto& entry : fs::recursive_directory_iterator(out)) CHECK(entry.path().extension() != ".tmp");
 }
@@ -282,7 +283,7 @@ TEST_CASE("plots of nothing, of one point and of gaps", "[output][plots]")
                 {{"a", {0, 1, 2, 3}, {0, nan, 2, 3}}, {"b", {0, 3}, {1, INFINITY}}});
     plot_crack_map(folder / "map", {}, {}, {});
     plot_crack_orientation(folder / "rose", {});
-    plot_fragment_sizes(folder / "sizes", {});
+    plot_fragment_sizes(folder / "sizes", {}, {});
     for (const char* name : {"none", "point", "gaps", "map", "rose", "sizes"}) check_plot(folder / name);
     CHECK_THROWS_WITH(plot_curves("/proc/nowhere/plot", "t", "x", "y", {}), Catch::Contains("/proc/nowhere/plot"));
 }
