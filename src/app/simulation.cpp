@@ -126,12 +126,13 @@ private:
             if (state_.step % steps_between_checks == 0 && state_.step > 0)
                 shorten_step_if_needed(time_step_bound(model_, state_));
             const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
-            const bool cleave = !cleavage_.empty() && stage.fracture && state_.step + 1 >= state_.next_look;
+            const bool cleave = !cleavage_.empty() && stage.fracture;
+            const bool ask_gate = cleave && state_.step + 1 >= state_.next_look;
             const auto before = Clock::now();
-            step(model_, state_, dt_, snapshot || cleave);
+            step(model_, state_, dt_, snapshot || ask_gate);
             record_.phases.steps += seconds_since(before);
             // a snapshot waits for the step after a split, when the stresses of the parts are known
-            if (!(cleave && split_where_due()) && snapshot) write_snapshot();
+            if (!(cleave && split_where_due(ask_gate)) && snapshot) write_snapshot();
             if (state_.time + 0.5 * dt_ >= next_history_ || time_is_up(stage)) {
                 record_row(stage);
                 if (const std::string why = why_unstable(); !why.empty())
@@ -186,11 +187,13 @@ private:
     }
 
     /// True if a grain was split.
-    bool split_where_due()
+    bool split_where_due(bool ask_gate)
     {
         const auto before = Clock::now();
-        const std::vector<GrainCleavage> found = find_cleavage(model_, state_, grain_stress(model_, state_), cleavage_);
-        plan_next_look(state_, found, cleavage_, dt_);
+        std::vector<int> look = due_for_a_look(state_, cleavage_);
+        if (ask_gate) look = ask_the_gate(state_, grain_stress(model_, state_), cleavage_, look, dt_);
+        const std::vector<GrainCleavage> found = find_cleavage(model_, state_, cleavage_, look);
+        plan_looks(state_, look, found, cleavage_, dt_);
         const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
         std::vector<int> parts;
         if (!due.empty()) {

@@ -14,10 +14,14 @@ namespace {
 
 /// Bodies per share of work that a thread takes at once is the pool's; fewer than this are done by the caller.
 constexpr int least_for_threads = 64;
-/// The latest next look: after this many steps, or this share of the time that a wave takes through a grain if that is
+/// The gate is asked after this many steps, or this share of the time that a wave takes through a grain if that is
 /// more. Small fragments make small steps, but stresses change no faster.
-constexpr std::int64_t most_steps = 20;
-constexpr double most_transits = 1.0;
+constexpr std::int64_t least_steps = 20;
+constexpr double transits = 1.0;
+/// A grain whose load would have to rise by 1/f waits for at most this many such intervals times 1/f - 1: stresses that
+/// double within one are those of a crack's tip, where f was not small before.
+constexpr double patience = 2.0;
+constexpr std::int64_t most_intervals = 8;
 
 /// A grain with all that acts on it, in its body frame: the sharp polyhedron as kernels see it, loads, motion.
 struct LoadedGrain {
@@ -120,6 +124,11 @@ bool face_passes(const State& state, int body, const CleavageGate& gate)
     return false;
 }
 
+bool passes(const State& state, int body, const Mat3& stress, const CleavageGate& gate)
+{
+    return gate(stress) || face_passes(state, body, gate);
+}
+
 GrainCleavage worst_plane(const Model& model, const State& state, int body, const CleavageRules& rules)
 {
     LoadedGrain grain = loaded_grain(model, state, body);
@@ -166,33 +175,25 @@ const CleavageRules* rules_of(const State& state, int body, const std::vector<Cl
 
 }  // namespace
 
-std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state, const std::vector<Mat3>& stress,
-                                         const std::vector<CleavageRules>& rules)
+std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
+                                         const std::vector<CleavageRules>& rules, const std::vector<int>& bodies)
 {
-    std::vector<GrainCleavage> found(static_cast<std::size_t>(state.bodies.size()));
-    std::vector<int> look;
-    for (int i = 0; i < state.bodies.size(); ++i) {
-        const CleavageRules* r = rules_of(state, i, rules);
-        if (r != nullptr && (r->gate(stress[static_cast<std::size_t>(i)]) || face_passes(state, i, r->gate)))
-            look.push_back(i);
-    }
+    std::vector<GrainCleavage> found(bodies.size());
     struct Work {
         const Model& model;
         const State& state;
         const std::vector<CleavageRules>& rules;
-        const std::vector<int>& look;
+        const std::vector<int>& bodies;
         std::vector<GrainCleavage>& found;
 
         void operator()(int begin, int end) const
         {
-            for (int k = begin; k < end; ++k) {
-                const int i = look[static_cast<std::size_t>(k)];
-                found[static_cast<std::size_t>(i)] = worst_plane(model, state, i, *rules_of(state, i, rules));
-            }
+            for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+                found[k] = worst_plane(model, state, bodies[k], *rules_of(state, bodies[k], rules));
         }
     };
-    const Work work{model, state, rules, look, found};
-    const int n = static_cast<int>(look.size());
+    const Work work{model, state, rules, bodies, found};
+    const int n = static_cast<int>(bodies.size());
     if (threads() == 1 || n < least_for_threads) {
         work(0, n);
     } else {
@@ -202,36 +203,93 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
     return found;
 }
 
-void plan_next_look(State& state, const std::vector<GrainCleavage>& found, const std::vector<CleavageRules>& rules,
-                    double dt)
+std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state, const std::vector<Mat3>& stress,
+                                         const std::vector<CleavageRules>& rules)
+{
+    std::vector<int> look;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (const CleavageRules* r = rules_of(state, i, rules);
+            r != nullptr && passes(state, i, stress[static_cast<std::size_t>(i)], r->gate))
+            look.push_back(i);
+    }
+    const std::vector<GrainCleavage> of_those = find_cleavage(model, state, rules, look);
+    std::vector<GrainCleavage> found(static_cast<std::size_t>(state.bodies.size()));
+    for (std::size_t k = 0; k < look.size(); ++k) found[static_cast<std::size_t>(look[k])] = of_those[k];
+    return found;
+}
+
+std::vector<int> due_for_a_look(const State& state, const std::vector<CleavageRules>& rules)
+{
+    std::vector<int> due;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (state.bodies.next_look[i] <= state.step && rules_of(state, i, rules) != nullptr) due.push_back(i);
+    }
+    return due;
+}
+
+namespace {
+
+/// Steps between two looks that ask the gate.
+std::int64_t interval(const std::vector<CleavageRules>& rules, double dt)
 {
     double transit = 0.0;
     for (const CleavageRules& r : rules) {
         if (!r.families.empty() && (transit == 0.0 || r.pause < transit)) transit = r.pause;
     }
-    std::int64_t wait = std::max<std::int64_t>(most_steps, std::llround(most_transits * transit / dt));
-    const auto since = static_cast<double>(std::max<std::int64_t>(1, state.step - state.last_look));
-    auto& before = state.bodies.cleavage_factor.host();
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const double now = found[i].nearest, growth = now - before[i];
-        before[i] = now;
-        if (now < 1.0 && growth > 0.0)
-            wait = std::min(wait, std::max<std::int64_t>(1, std::llround(0.5 * (1.0 - now) / growth * since)));
+    return std::max<std::int64_t>(least_steps, std::llround(transits * transit / dt));
+}
+
+}  // namespace
+
+std::vector<int> ask_the_gate(State& state, const std::vector<Mat3>& stress, const std::vector<CleavageRules>& rules,
+                              const std::vector<int>& bodies, double dt)
+{
+    state.next_look = state.step + interval(rules, dt);
+    std::vector<int> passing;
+    Bodies& b = state.bodies;
+    for (const int i : bodies) {
+        if (passes(state, i, stress[static_cast<std::size_t>(i)], rules_of(state, i, rules)->gate)) {
+            passing.push_back(i);
+            continue;
+        }
+        b.cleavage_factor.at(i) = 0.0;
+        b.last_look.at(i) = state.step;
+        b.next_look.at(i) = state.next_look;
     }
-    state.last_look = state.step;
-    state.next_look = state.step + wait;
+    return passing;
+}
+
+void plan_looks(State& state, const std::vector<int>& bodies, const std::vector<GrainCleavage>& found,
+                const std::vector<CleavageRules>& rules, double dt)
+{
+    const std::int64_t unit = interval(rules, dt);
+    Bodies& b = state.bodies;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const int i = bodies[k];
+        const double f = found[k].nearest, growth = f - b.cleavage_factor[i];
+        const auto since = static_cast<double>(std::max<std::int64_t>(1, state.step - b.last_look[i]));
+        double wait = static_cast<double>(unit);
+        if (f < 1.0) {  // else it waits for the end of its pause, or for nothing
+            const auto longest = static_cast<double>(most_intervals * unit);
+            wait = f > 0.0 ? std::min(longest, patience * (1.0 / f - 1.0) * static_cast<double>(unit)) : longest;
+            if (growth > 0.0) wait = std::min(wait, 0.5 * (1.0 - f) / growth * since);
+        }
+        b.cleavage_factor.at(i) = f;
+        b.last_look.at(i) = state.step;
+        b.next_look.at(i) = state.step + std::max<std::int64_t>(1, std::llround(wait));
+    }
 }
 
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,
                                      const std::vector<CleavageRules>& rules)
 {
     std::vector<SplitRequest> due;
-    for (int i = 0; i < state.bodies.size(); ++i) {
-        const SplitRequest& request = found[static_cast<std::size_t>(i)].due;
-        if (request.body < 0) continue;
+    for (const GrainCleavage& c : found) {
+        const int i = c.due.body;
+        if (i < 0) continue;
         const double last = state.bodies.split_time[i];
         if (last >= 0.0 && state.time - last < rules_of(state, i, rules)->pause) continue;
-        due.push_back(request);
+        due.push_back(c.due);
     }
     return due;
 }

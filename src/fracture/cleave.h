@@ -41,12 +41,24 @@ struct GrainCleavage {
 std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state, const std::vector<Mat3>& stress,
                                          const std::vector<CleavageRules>& rules);
 
-/// Sets the step of the next look: when the first grain might get half way to f = 1 at the rate at which f grew since
-/// the last look, and not later than a wave takes through a grain.
-void plan_next_look(State& state, const std::vector<GrainCleavage>& found, const std::vector<CleavageRules>& rules,
-                    double dt);
+/// The same for some grains, an entry for each of `bodies`, whatever the gate says.
+std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
+                                         const std::vector<CleavageRules>& rules, const std::vector<int>& bodies);
 
-/// Requests for those that reach f >= 1 and may split now, in the order of the bodies.
+/// Grains that are to be looked at now, by their own plan.
+std::vector<int> due_for_a_look(const State& state, const std::vector<CleavageRules>& rules);
+
+/// Sets the step of the next look that asks the gate: the time that a wave takes through a grain from now. Of `bodies`,
+/// returns those that the gate lets pass; the others are asked again then.
+std::vector<int> ask_the_gate(State& state, const std::vector<Mat3>& stress, const std::vector<CleavageRules>& rules,
+                              const std::vector<int>& bodies, double dt);
+
+/// Plans the next look at each grain that was looked at: when it might get half way to f = 1 at the rate at which its f
+/// grew since the last look, and the sooner the nearer it is. `found`: of `bodies`.
+void plan_looks(State& state, const std::vector<int>& bodies, const std::vector<GrainCleavage>& found,
+                const std::vector<CleavageRules>& rules, double dt);
+
+/// Requests for those that reach f >= 1 and may split now, in the order of `found`.
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,
                                      const std::vector<CleavageRules>& rules);
 

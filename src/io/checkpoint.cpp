@@ -158,7 +158,6 @@ void transfer_all(Transfer&& transfer, State& state, StageSettings& stage)
     transfer("/run/initial_energy", state.initial_energy);
     transfer("/run/time", state.time);
     transfer("/run/step", state.step);
-    transfer("/run/last_look", state.last_look);
     transfer("/run/next_look", state.next_look);
     transfer.group("/stage");
     transfer("/stage/wall_motion", stage.wall_motion);

@@ -39,6 +39,8 @@ struct Bodies {
     Buffer<double> split_time;        ///< of the last split behind it, -1 if it is whole [s]
     Buffer<std::int64_t> saturated;   ///< bit k: a split along candidate plane k was refused [-]
     Buffer<double> cleavage_factor;   ///< f of the worst plane that may split, at the last look for cleavage [-]
+    Buffer<std::int64_t> last_look;   ///< step of that look [-]
+    Buffer<std::int64_t> next_look;   ///< step from which on it is looked at again [-]
     Buffer<double> origin_volume;     ///< of the sharp grain that it was at the start; 0 for walls [m^3]
 
     int size() const { return position.size(); }
@@ -74,6 +76,8 @@ struct Bodies {
         visit("split_time", split_time);
         visit("saturated", saturated);
         visit("cleavage_factor", cleavage_factor);
+        visit("last_look", last_look);
+        visit("next_look", next_look);
         visit("origin_volume", origin_volume);
     }
 };

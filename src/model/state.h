@@ -52,7 +52,7 @@ struct State {
     double initial_energy = 0.0;  ///< E_0 of the ledger [J]
     double time = 0.0;            ///< [s]
     std::int64_t step = 0;
-    std::int64_t last_look = 0, next_look = 0;  ///< steps of the looks for cleavage
+    std::int64_t next_look = 0;  ///< step of the next look for cleavage that asks the gate
 
     int bond_slots() const { return interfaces.size() + parallels.size(); }
 };
