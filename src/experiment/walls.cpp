@@ -2,6 +2,7 @@
 #include "experiment/walls.h"
 
 #include "contact/manifold.h"
+#include "experiment/specimen.h"
 #include "generate/assemble.h"
 
 #include <algorithm>
@@ -104,19 +105,39 @@ int add_cylinder(Model& model, State& state, int wall, const Vec3& axis, double 
     return add_wall_round(model, state, wall, group_of_wall(model, wall), axis, length, center, radius);
 }
 
+void add_box(Model& model, State& state, int wall, const Vec3& center, const Vec3& inside, double thickness,
+             const std::vector<std::string>& open)
+{
+    for (int e = 0; e < 3; ++e) {
+        const int f = (e + 1) % 3, g = (e + 2) % 3;
+        for (const int side : {1, -1}) {
+            const std::string name = std::string(side > 0 ? "+" : "-") + "xyz"[e];
+            if (std::find(open.begin(), open.end(), name) != open.end()) continue;
+            const Vec3 inwards = -static_cast<double>(side) * axis_vector(e);
+            // corners: each plate reaches past its neighbours
+            add_plate(model, state, wall, center - 0.5 * inside[e] * inwards, inwards, axis_vector(f),
+                      inside[f] + 2.0 * thickness, inside[g] + 2.0 * thickness, thickness);
+        }
+    }
+}
+
 void add_wall(Model& model, State& state, const WallSpec& spec)
 {
     const int wall = add_wall(model, spec.name);
+    const double thickness = spec.thickness > 0.0 || spec.size.empty()
+                                 ? spec.thickness
+                                 : 0.1 * *std::max_element(spec.size.begin(), spec.size.end());
     if (spec.shape == "plate") {
-        const double thickness = spec.thickness > 0.0 ? spec.thickness : 0.1 * std::max(spec.size[0], spec.size[1]);
         add_plate(model, state, wall, spec.center, spec.normal,
                   std::fabs(normalized(spec.normal).x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, spec.size[0],
                   spec.size[1], thickness);
-        return;
+    } else if (spec.shape == "box") {
+        add_box(model, state, wall, spec.center, {spec.size[0], spec.size[1], spec.size[2]}, thickness, spec.open);
+    } else {
+        const double length = spec.shape == "cylinder" ? spec.length : 0.0;
+        add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center,
+                       spec.radius);
     }
-    const double length = spec.shape == "cylinder" ? spec.length : 0.0;
-    add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center,
-                   spec.radius);
 }
 
 }  // namespace grainfrac

@@ -23,6 +23,11 @@ void add_plate(Model& model, State& state, int wall, const Vec3& face_center, co
 int add_cylinder(Model& model, State& state, int wall, const Vec3& axis, double length, const Vec3& center,
                  double radius);
 
+/// Container of wall `wall`: plates that look inwards at the six sides of a box of inner lengths `inside`, but for those
+/// that `open` names, as "+z".
+void add_box(Model& model, State& state, int wall, const Vec3& center, const Vec3& inside, double thickness,
+             const std::vector<std::string>& open);
+
 /// Move the bodies of a wall along the unit vector `direction` until the first of them touches a free body: gap 0, no
 /// overlap, found by conservative advancement. False (nothing moved) if they would pass all bodies.
 bool move_to_touch(const Model& model, State& state, int wall, const Vec3& direction);
