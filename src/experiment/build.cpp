@@ -192,7 +192,8 @@ Built build(const Case& c, Device device)
     check_snap_back(model, state, table);
 
     model.gravity = c.control.gravity;
-    for (const WallSpec& w : c.walls) add_wall(model, state, w);
+    for (std::size_t k = 0; k < c.walls.size(); ++k)
+        add_wall(model, state, c.walls[k], fmt::format("walls[{}]", k), c.file);
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);

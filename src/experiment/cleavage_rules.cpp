@@ -3,6 +3,8 @@
 
 #include "generate/crystal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,6 +82,13 @@ std::vector<CleavageRules> make_cleavage_rules(const Case& c, const std::vector<
         if (s.planes.empty()) continue;
         CleavageRules& r = rules[g];
         const CleavageLaw law = cleavage_law(s, m);
+        const double crack = s.flaw == "edge" ? s.flaw_size : 2.0 * s.flaw_size;
+        if (crack >= spacing[g]) {
+            throw InputError(fmt::format("materials.{}.cleavage.flaw_size", m.name),
+                             fmt::format("must be < {:.6g} m: the flaw would be longer than the ball that fits in a "
+                                         "grain of \"{}\" is wide",
+                                         spacing[g] * s.flaw_size / crack, part.name));
+        }
         const double side = s.slabs && part.generator == "hexagonal_prisms" ? part.side : 0.0;
         for (const std::string& planes : s.planes)
             r.families.push_back({law, cleavage_planes(parse_crystal_planes(planes), side)});

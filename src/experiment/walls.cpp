@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <numeric>
+#include <stdexcept>
 #include <vector>
 
 namespace grainfrac {
@@ -109,7 +112,7 @@ void add_box(Model& model, State& state, int wall, const Vec3& center, const Vec
              const std::vector<std::string>& open)
 {
     for (int e = 0; e < 3; ++e) {
-        const int f = (e + 1) % 3, g = (e + 2) % 3;
+        const int f = e == 0 ? 1 : 0, g = 3 - e - f;  // as for a plate of the input
         for (const int side : {1, -1}) {
             const std::string name = std::string(side > 0 ? "+" : "-") + "xyz"[e];
             if (std::find(open.begin(), open.end(), name) != open.end()) continue;
@@ -121,7 +124,42 @@ void add_box(Model& model, State& state, int wall, const Vec3& center, const Vec
     }
 }
 
-void add_wall(Model& model, State& state, const WallSpec& spec)
+void add_mesh(Model& model, State& state, int wall, const TriangleMesh& mesh, double unit, const Vec3& origin)
+{
+    for (std::vector<Vec3> polygon : convex_facets(mesh, max_face_vertices)) {
+        for (Vec3& x : polygon) x = unit * x + origin;
+        const Vec3 center = polygon_centroid(polygon);
+        for (Vec3& x : polygon) x -= center;
+        std::vector<int> front(polygon.size());
+        std::iota(front.begin(), front.end(), 0);
+        const std::vector<int> back(front.rbegin(), front.rend());
+        add_wall_plate(model, state, wall, group_of_wall(model, wall), make_polyhedron(polygon, {front, back}), center,
+                       0.0);
+    }
+}
+
+namespace {
+
+void add_mesh(Model& model, State& state, int wall, const WallSpec& spec, const std::string& key,
+              const std::string& input_file)
+{
+    const std::string file = std::filesystem::path(input_file).parent_path() / spec.file;
+    TriangleMesh mesh;
+    try {
+        mesh = read_stl(file);
+    } catch (const std::runtime_error& e) {
+        throw InputError(key + ".file", e.what());
+    }
+    if (const std::string why = why_not_closed(mesh); spec.closed && !why.empty()) {
+        throw InputError(key + ".file", "the surface is not closed: " + why +
+                                            "; mend it, or set closed = false where an open surface is meant");
+    }
+    add_mesh(model, state, wall, mesh, spec.file_unit, spec.center);
+}
+
+}  // namespace
+
+void add_wall(Model& model, State& state, const WallSpec& spec, const std::string& key, const std::string& input_file)
 {
     const int wall = add_wall(model, spec.name);
     const double thickness = spec.thickness > 0.0 || spec.size.empty()
@@ -133,6 +171,8 @@ void add_wall(Model& model, State& state, const WallSpec& spec)
                   spec.size[1], thickness);
     } else if (spec.shape == "box") {
         add_box(model, state, wall, spec.center, {spec.size[0], spec.size[1], spec.size[2]}, thickness, spec.open);
+    } else if (spec.shape == "stl") {
+        add_mesh(model, state, wall, spec, key, input_file);
     } else {
         const double length = spec.shape == "cylinder" ? spec.length : 0.0;
         add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center,

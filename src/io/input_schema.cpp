@@ -100,7 +100,7 @@ std::string expected(const std::vector<double>&, const Facts& facts)
 }
 std::string expected(const std::vector<std::string>&, const Facts& facts)
 {
-    if (facts.words[0] != '\0') return "an array of " + expected(std::string(), facts);
+    if (facts.words[0] != '\0') return "an array of texts, each " + expected(std::string(), facts);
     return "an array of texts such as [\"{10-10}\"]";
 }
 std::string expected(const std::array<std::string, 2>&, const Facts&)

@@ -261,6 +261,11 @@ void describe(V& v, PartSpec& s)
       {.range = {0.0, 0.5, false, true},
        .used = prisms,
        .meaning = "cut cells below this share of a whole cell's volume are given to their neighbours"});
+    v("gap", s.gap,
+      {.unit = "m",
+       .range = not_negative,
+       .used = prisms,
+       .meaning = "between neighbours: every face is moved inwards by half of it, so that the grains are loose"});
     v.table("region", s.region,
             {.required = prisms,
              .used = {prisms.holds || has_region},

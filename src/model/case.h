@@ -84,6 +84,7 @@ struct PartSpec {
     std::string lattice = "nominal";        ///< nominal | contained
     std::optional<double> dilation_radius;  ///< [m]; auto: 0.04 of the mean inradius
     double sliver_fraction = 0.05;          ///< [-]
+    double gap = 0.0;                       ///< between neighbours, which are smaller by it [m]
     RegionSpec region;
     std::string at_region_boundary = "keep";  ///< keep | cut
     OrientationSpec orientation;

@@ -2,6 +2,7 @@
 #include "motion/servo.h"
 
 #include "gpu/parallel.h"
+#include "model/views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@ namespace grainfrac {
 
 namespace {
 
-/// beta of the header: 0.3 to 0.5; 1 would cancel the error of a lone contact in one step, 2 make it swing.
+/// beta of the header, 0.3 to 0.5: 1 would cancel the error of a lone contact in one step, 2 make it swing.
 constexpr double servo_gain = 0.4;
 
 struct Push {
@@ -21,10 +22,13 @@ struct Push {
     GF_FN double operator()(int i) const { return wall[i] == which ? -dot(force[i], direction) : 0.0; }
 };
 
-/// Of the stiffer branch, unloading: the gain must not depend on which way the wall goes.
-struct ContactStiffness {
+/// What a wall's contacts set against a speed that lasts a step: K dt + c, with the stiffer branch, unloading, so that
+/// the gain does not depend on which way the wall goes [N s/m].
+struct Resistance {
     int which;
+    double dt;
     View<const std::int32_t> wall, a, b, law, active;
+    View<const double> inverse_mass;
     View<const LinearContact> laws;
     View<const double> scale;
     View<const ContactPoint> point;
@@ -32,7 +36,9 @@ struct ContactStiffness {
     {
         if ((wall[a[i]] != which && wall[b[i]] != which) || active[i] != 1) return 0.0;
         const LinearContact& l = laws[law[i]];
-        return l.area_stiffness * scale[i] * l.unload_factor * point[i].area;
+        const double K = l.area_stiffness * scale[i] * point[i].area;
+        const double m = reduced_mass(inverse_mass[a[i]], inverse_mass[b[i]]);
+        return l.unload_factor * K * dt + 2.0 * l.damping_ratio * std::sqrt(K * m);
     }
 };
 
@@ -48,14 +54,15 @@ struct SetVelocity {
     }
 };
 
-double contact_stiffness(const Model& model, const State& state, int wall)
+double resistance(const Model& model, const State& state, int wall, double dt)
 {
     const Device d = model.device;
     const Contacts& c = state.contacts;
+    const Bodies& b = state.bodies;
     return parallel_sum(d, c.size(),
-                        ContactStiffness{wall, state.bodies.wall.read(d), c.a.read(d), c.b.read(d), c.law.read(d),
-                                         c.active.read(d), model.contact_laws.read(d), c.stiffness_scale.read(d),
-                                         c.point.read(d)});
+                        Resistance{wall, dt, b.wall.read(d), c.a.read(d), c.b.read(d), c.law.read(d), c.active.read(d),
+                                   b.inverse_mass.read(d), model.contact_laws.read(d), c.stiffness_scale.read(d),
+                                   c.point.read(d)});
 }
 
 }  // namespace
@@ -77,8 +84,8 @@ void drive_servos(const Model& model, State& state, double dt)
         const int wall = static_cast<int>(w);
         const double missing =
             motion.push_at(state.time + 0.5 * dt) - wall_push(model, state, wall, motion.push_direction);
-        const double K = contact_stiffness(model, state, wall);
-        const double wanted = K > 0.0 ? servo_gain * missing / (K * dt) : std::copysign(motion.max_speed, missing);
+        const double R = resistance(model, state, wall, dt);
+        const double wanted = R > 0.0 ? servo_gain * missing / R : std::copysign(motion.max_speed, missing);
         const double speed = missing == 0.0 ? 0.0 : std::clamp(wanted, -motion.max_speed, motion.max_speed);
         parallel_for(d, b.size(),
                      SetVelocity{wall, speed * motion.push_direction, b.wall.read(d), b.velocity.write(d)});

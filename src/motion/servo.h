@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walls that hold a push. Each step such a wall moves along its direction at
 //
-//   v = beta (F_wanted - F)/(K dt),   |v| <= max_speed,   K = sum of k_c C A of the wall's contacts
+//   v = beta (F_wanted - F)/R,   |v| <= max_speed,   R = sum of k_c C A dt + c_n of the wall's contacts
 //
-// so that over the contacts alone the missing push would shrink by 1 - beta. To the specimen the wall is a dashpot of
-// K dt/beta behind a constant force: it takes energy out of vibrations and cannot put any in.
+// so that over the contacts alone the missing push would shrink by 1 - beta. The dashpots c_n of viscous contacts answer
+// a speed at once; left out, the wall would chatter. To the specimen the wall is a dashpot R/beta beside a constant
+// force: it takes energy out of vibrations and puts none in.
 #pragma once
 
 #include "model/model.h"

@@ -2,6 +2,8 @@
 // What is wrong is said with file, line, key, value as written, and what is allowed.
 #include "input_files.h"
 
+#include "experiment/experiment.h"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -227,8 +229,8 @@ const Wrong wrong_values[] = {
     {B, "every = \"10 us\"", "snapshots = 5",
      "error: FILE:34: output.snapshots = 5: needs test.stop.time or a stage with a duration; or give every\n"},
     {C, "duration = \"1 ms\"\n", "",
-     "error: FILE:17: stages[0]: never ends; required: at least one of duration, unbalanced_force_ratio, load_drop, "
-     "max_displacement, or test.stop.time\n"},
+     "error: FILE:17: stages[0]: never ends; required: at least one of duration, max_displacement, load, stress, "
+     "load_drop, unbalanced_force_ratio, rest, or test.stop.time\n"},
     {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[test]\nplaten_speed = 1",
      "error: FILE:22: test.platen_speed = 1: has no meaning here; it goes with any kind but \"custom\" and "
      "\"drop\"\n"},
@@ -238,6 +240,85 @@ const Wrong wrong_values[] = {
      "error: FILE:13: walls[0].radius: missing; required with shape = \"cylinder\" or \"sphere\": a quantity > 0 m "
      "such as \"1 m\"\n"},
     {C, "velocity = [0, \"-20 mm/s\", 0]", "velocity = [0, 0, 0]", ""},
+    // cleavage planes and flaws
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{11-10}\"]\ntoughness = 1\nflaw_size = \"30 um\"", "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10\"]\ntoughness = 1\nflaw_size = \"30 um\"", "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0000)\"]\ntoughness = 1\nflaw_size = \"30 um\"", "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{12}\"]\ntoughness = 1\nflaw_size = \"30 um\"", "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 um\"\nmode_ratio = 0",
+     "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 um\"\nfriction = -1",
+     "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 um\"\nmin_section = 1",
+     "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 um\"\nflaw = \"round\"",
+     "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 um\"\nfracture_energy = 3\nnew_surface = \"free\"",
+     "?"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = []\ntoughness = 0\nflaw_size = \"-30 um\"", "?"},
+    {B, "poisson_ratio = 0.16", "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]", "?"},
+    // walls: sizes, sides, files, servos
+    {C, "size = [0.01, 0.01]", "size = [0.01, 0.01, 0.01]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [0.01, 0.01]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"bxo\"\nsize = [0.01, 0.01]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, 1]\nopen = [\"up\"]", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nopen = [\"+z\"]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, 1]\nopen = [\"+z\", \"+z\"]", "?"},
+    {C, "size = [0.01, 0.01]",
+     "shape = \"box\"\nsize = [1, 1, 1]\nopen = [\"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\"]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, 1]\nopen = \"+z\"", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, -1]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"stl\"", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"stl\"\nfile = \"\"\nfile_unit = \"1 mm\"", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"stl\"\nfile = \"a.stl\"\nfile_unit = \"1 kg\"", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nfile = \"a.stl\"", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = {}", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = \"1 N\", stress = \"1 Pa\" }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { stress = \"1 N\" }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = -1 }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, area = 1 }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, max_speed = 0 }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, direction = [0, 0, 0] }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, target = 2 }", "?"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1 }\nvelocity = [0, 1, 0]", "?"},
+    {C, "size = [0.01, 0.01]", "shape = \"sphere\"\nradius = 1\nservo = { force = 1 }", "?"},
+    {U, "[test]", "[[walls]]\nname = \"side\"\nsize = [1, 1]\nservo = { force = 1 }\n[test]", "?"},
+    // stages
+    {C, ", velocity = [0, \"-20 mm/s\", 0]", "", "?"},
+    {C, ", velocity = [0, \"-20 mm/s\", 0]", ", servo = { stress = \"1 MPa\", force = \"1 N\" }", "?"},
+    {C, "velocity = [0, \"-20 mm/s\", 0]", "velocity = [0, 1, 0], servo = { stress = \"1 MPa\" }", "?"},
+    {C, "duration =", "kind = \"lod\"\nduration =", "?"},
+    {C, "duration =", "rest = 1.5\nduration =", "?"},
+    {C, "duration =", "gravity = 9.81\nduration =", "?"},
+    {C, "duration =", "gravity = [0, 0, \"9.81 m\"]\nduration =", "?"},
+    {C, "duration =", "local_damping = 1\nduration =", "?"},
+    {C, "duration =", "stress = \"-1 MPa\"\nduration =", "?"},
+    {C, "duration =", "bond_distance = \"1 um\"\nduration =", "?"},
+    {C, "velocity = [0, \"-20 mm/s\", 0] }]", "velocity = [0, 0, 0] }]\nload = 3\nstress = 4\nmax_displacement = 5",
+     "?"},
+    {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"", "?"},
+    {C, "duration = \"1 ms\"",
+     "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"\nbond_distance = \"1 um\"\nduration = 1", "?"},
+    {C, "duration = \"1 ms\"",
+     "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"\nbond_distance = 0\nbond_angle = \"40 deg\"", "?"},
+    {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"\nbond_distance = 1", "?"},
+    {C, "[[stages]]\n", "[[bonds]]\nfailure = \"unbreakable\"\nmade_in = \"pres\"\n[[stages]]\n", "?"},
+    {B, "cohesion =", "made_in = \"later\"\ncohesion =", "?"},
+    {C, "move = [{ wall = \"top\", velocity = [0, \"-20 mm/s\", 0] }]\n", "kind = \"unload\"\n", "?"},
+    {C, "velocity = [0, \"-20 mm/s\", 0] }]\nduration = \"1 ms\"",
+     "servo = { force = 1 } }]\nduration = 1\n[[stages]]\nname = \"back\"\nkind = \"unload\"", "?"},
+    {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[[stages]]\nname = \"press\"\nduration = 1", "?"},
+    {C, "thickness =", "gap = \"-1 um\"\nthickness =", "?"},
     // ready-made tests; U, F, D: see above
     {U, "uniaxial_compression", "uniaxial_tension",
      "error: FILE:17: test.wall_friction = 0.1: has no meaning here; it goes with kind = \"uniaxial_compression\" "
@@ -307,6 +388,67 @@ std::string repeated(const char* before, const char* s, int n, const char* behin
     return out += behind;
 }
 
+/// What only building the model can find out.
+struct Unbuildable {
+    std::string base;
+    const char* from;
+    const char* to;
+    const char* report;
+};
+
+const std::string bonded_bar =
+    replaced(custom_input, "[[walls]]", "[[bonds]]\nfailure = \"unbreakable\"\n\n[[walls]]");
+std::string bonded(const std::string& lines)
+{
+    return bonded_bar.substr(0, bonded_bar.find("[[walls]]")) + "[test]\n" + lines;
+}
+const std::string short_span =
+    replaced(replaced(four_point_input, "\"16 mm\"", "\"4 mm\""), "\"8 mm\"", "\"2 mm\"");
+const std::string three_point = replaced(replaced(short_span, "four_point", "three_point"), "inner_span = \"2 mm\"\n", "");
+const std::string notched =
+    replaced(replaced(short_span, "four_point_bending", "notched_beam"), "inner_span = \"2 mm\"",
+             "roller_radius = \"0.5 mm\"\nnotch_depth = \"20 mm\"");
+const std::string dcb = bonded("kind = \"dcb\"\nplaten_speed = 1\ncrack_length = \"2 mm\"\nstop = { time = 1 }\n");
+const std::string cleaving =
+    replaced(custom_input, "poisson_ratio = 0.16",
+             "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa "
+             "m^0.5\"\nflaw_size = \"30 um\"");
+
+const Unbuildable unbuildable[] = {
+    {four_point_input, "\"16 mm\"", "\"16 mm\"", "?"},
+    {short_span, "inner_span", "roller_radius = \"3 mm\"\ninner_span", "?"},
+    {three_point, "outer_span = \"4 mm\"", "outer_span = \"40 mm\"", "?"},
+    {notched, "\"20 mm\"", "\"20 mm\"", "?"},
+    {uniaxial_input, "wall_friction = 0.1", "ends = \"gripped\"\ngrip_length = \"6 mm\"", "?"},
+    {uniaxial_input, "wall_friction = 0.1", "ends = \"gripped\"\ngrip_length = \"1 um\"", "?"},
+    {dcb, "crack_length = \"2 mm\"", "crack_length = \"60 mm\"", "?"},
+    {dcb, "[[bonds]]\nfailure = \"unbreakable\"\n", "", "?"},
+    {cleaving, "\"30 um\"", "\"3 mm\"", "?"},
+    {cleaving, "\"30 um\"", "\"3 mm\"\nflaw = \"edge\"", "?"},
+    {custom_input, "thickness =", "gap = \"2 mm\"\nthickness =", "?"},
+    {custom_input, "name = \"top\"\nsize = [0.01, 0.01]",
+     "name = \"top\"\nshape = \"stl\"\nfile = \"no_such.stl\"\nfile_unit = 1\nclosed = false", "?"},
+    {custom_input, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [\"5 mm\", \"5 mm\", \"5 mm\"]", "?"},
+};
+
+/// The report of build(), "" if there is none.
+std::string build_problems_of(const std::string& text)
+{
+    const TemporaryFile file(text);
+    std::map<std::string, SourcePlace> places;
+    const Case c = read_case(file.path(), {}, places);
+    try {
+        build(c, Device::cpu);
+        return "";
+    } catch (const InputError& e) {
+        std::string out = render_problems(e.problems, c.places, c.file);
+        const std::string folder = std::filesystem::path(file.path()).parent_path().string();
+        for (std::size_t at; (at = out.find(file.path())) != out.npos;) out.replace(at, file.path().size(), "FILE");
+        for (std::size_t at; (at = out.find(folder)) != out.npos;) out.replace(at, folder.size(), "FOLDER");
+        return out;
+    }
+}
+
 }  // namespace
 
 TEST_CASE("the files that are spoiled are good", "[input]")
@@ -328,6 +470,14 @@ TEST_CASE("wrong values are reported with file, line, key, value and what is all
         } else {
             CHECK(report == expected);
         }
+    }
+}
+
+TEST_CASE("experiments that cannot be built are refused with file, line, key, value and what is allowed", "[input]")
+{
+    for (const Unbuildable& wrong : unbuildable) {
+        INFO(wrong.from << " -> " << wrong.to);
+        CHECK(build_problems_of(replaced(wrong.base, wrong.from, wrong.to)) == wrong.report);
     }
 }
 
