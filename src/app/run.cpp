@@ -116,8 +116,7 @@ int run_command(const Options& o)
     watch_signals();
     SnapshotFields fields;
     const Ending ending = simulate(c, o, built, folder, record, fields);
-    if (ending.code == exit_code::unstable || ending.code == exit_code::wrong_input)
-        spdlog::error("{}", ending.reason);
+    if (ending.code == exit_code::unstable || ending.code == exit_code::wrong_input) spdlog::error("{}", ending.reason);
     warn_about_loading(built, record);
     try {
         folder.finish(summary_json(facts, c, built, record, ending, fields), built.model, built.state, fields,

@@ -211,7 +211,8 @@ private:
         record_.bonding_energy -= made.removed_energy;
         const Vec3 p = made.before.linear, L = made.before.angular;
         spdlog::info(
-            "{} bonds of {:.4g} m^2 made; taken out to begin without stress: {:.4g} J, momentum ({:.3g}, {:.3g}, {:.3g}) "
+            "{} bonds of {:.4g} m^2 made; taken out to begin without stress: {:.4g} J, momentum ({:.3g}, {:.3g}, "
+            "{:.3g}) "
             "kg m/s, angular momentum ({:.3g}, {:.3g}, {:.3g}) kg m^2/s",
             made.number, made.area, made.removed_energy, p.x, p.y, p.z, L.x, L.y, L.z);
         if (!case_.control.time_step) {

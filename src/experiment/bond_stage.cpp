@@ -93,8 +93,7 @@ std::vector<Pair> order_by_pair(const Bonds& x, const Bonds& y)
         const Bonds& bonds = p.first == 0 ? x : y;
         return Pair{bonds.a[p.second], bonds.b[p.second]};
     };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](const Pair& p, const Pair& q) { return pair_of(p) < pair_of(q); });
+    std::stable_sort(order.begin(), order.end(), [&](const Pair& p, const Pair& q) { return pair_of(p) < pair_of(q); });
     return order;
 }
 
@@ -116,8 +115,7 @@ void add_bonds(State& state, State& fresh)
     state.interfaces.corner_begin.host() = std::move(corner_begin);
     state.points = merged(state.points, fresh.points, points);
     state.corners = merged(state.corners, fresh.corners, corners);
-    state.parallels =
-        merged(state.parallels, fresh.parallels, order_by_pair(state.parallels, fresh.parallels));
+    state.parallels = merged(state.parallels, fresh.parallels, order_by_pair(state.parallels, fresh.parallels));
 }
 
 /// Everything stands still, and contacts forget; what they held is booked as taken out.

@@ -64,7 +64,8 @@ Stage make_stage(const Case& c, const StageSpec& s, const std::vector<Stage>& be
         set_load(stage, wall, stage.unloads);
     }
     if (stage.unloads && s.motions.empty()) {
-        const auto last = std::find_if(before.rbegin(), before.rend(), [](const Stage& b) { return b.loaded_wall >= 0; });
+        const auto last =
+            std::find_if(before.rbegin(), before.rend(), [](const Stage& b) { return b.loaded_wall >= 0; });
         for (std::size_t w = 0; w < c.walls.size(); ++w) stage.wall_velocity[w] = -last->wall_velocity[w];
         stage.loaded_wall = last->loaded_wall;
         stage.load_direction = last->load_direction;
@@ -72,8 +73,7 @@ Stage make_stage(const Case& c, const StageSpec& s, const std::vector<Stage>& be
     for (std::size_t w = 0; w < c.walls.size(); ++w) set_load(stage, static_cast<int>(w), stage.unloads);
     if (s.ramp > 0.0) stage.ramp = s.ramp;
     stage.gravity = s.gravity.value_or(c.control.gravity);
-    stage.local_damping =
-        s.local_damping.value_or(s.kind == "settle" ? settling_damping : c.control.local_damping);
+    stage.local_damping = s.local_damping.value_or(s.kind == "settle" ? settling_damping : c.control.local_damping);
     stage.fracture = s.fracture;
     stage.cleavage = s.cleavage;
     stage.duration = s.duration;
@@ -104,7 +104,8 @@ int opposite_wall(const Stage& s)
 {
     for (std::size_t w = 0; w < s.wall_velocity.size(); ++w) {
         const Vec3 v = s.wall_velocity[w];
-        if (static_cast<int>(w) != s.loaded_wall && norm2(v) > 0.0 && dot(v, s.load_direction) < -(1.0 - 1e-9) * norm(v))
+        if (static_cast<int>(w) != s.loaded_wall && norm2(v) > 0.0 &&
+            dot(v, s.load_direction) < -(1.0 - 1e-9) * norm(v))
             return static_cast<int>(w);
     }
     return -1;

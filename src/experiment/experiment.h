@@ -16,11 +16,11 @@ namespace grainfrac {
 
 /// A wall that holds a push in a stage; no direction: it moves at its velocity.
 struct Servo {
-    Vec3 direction;                ///< unit; zero: none [-]
-    std::optional<double> force;   ///< wanted [N]
-    double stress = 0.0;           ///< or this [Pa]
-    std::optional<double> area;    ///< times this; else the specimen's section when the stage begins [m^2]
-    double max_speed = 0.0;        ///< [m/s]
+    Vec3 direction;               ///< unit; zero: none [-]
+    std::optional<double> force;  ///< wanted [N]
+    double stress = 0.0;          ///< or this [Pa]
+    std::optional<double> area;   ///< times this; else the specimen's section when the stage begins [m^2]
+    double max_speed = 0.0;       ///< [m/s]
 };
 
 /// Bonds that a stage makes at once.
@@ -33,22 +33,22 @@ struct BondsToMake {
 /// One stage of the loading programme; the first end condition that holds ends it.
 struct Stage {
     std::string name;
-    std::vector<Vec3> wall_velocity;         ///< one per wall [m/s]
-    std::vector<Servo> servos;               ///< one per wall, or none at all
-    double ramp = 0.0;                       ///< time over which walls change speed or push [s]
-    std::optional<Vec3> gravity;             ///< else as before [m/s^2]
-    double local_damping = 0.0;              ///< [-]
-    bool fracture = true;                    ///< bonds may break
-    bool cleavage = true;                    ///< grains may split
-    std::optional<BondsToMake> bonds;        ///< made at the beginning; such a stage takes no time
-    bool unloads = false;                    ///< load_drop is a share of the load at the beginning
-    std::int32_t loaded_wall = -1;           ///< the first that moves; its push is the load of the stage
-    Vec3 load_direction;                     ///< unit, of its push [-]
-    std::optional<double> duration;          ///< [s]
-    std::optional<double> load_drop;         ///< share of the peak load of this stage [-]
-    std::optional<double> load;              ///< push of the loaded wall [N]
-    std::optional<double> stress;            ///< the same over the section when the stage begins [Pa]
-    std::optional<double> displacement;      ///< closing of the walls [m]
+    std::vector<Vec3> wall_velocity;               ///< one per wall [m/s]
+    std::vector<Servo> servos;                     ///< one per wall, or none at all
+    double ramp = 0.0;                             ///< time over which walls change speed or push [s]
+    std::optional<Vec3> gravity;                   ///< else as before [m/s^2]
+    double local_damping = 0.0;                    ///< [-]
+    bool fracture = true;                          ///< bonds may break
+    bool cleavage = true;                          ///< grains may split
+    std::optional<BondsToMake> bonds;              ///< made at the beginning; such a stage takes no time
+    bool unloads = false;                          ///< load_drop is a share of the load at the beginning
+    std::int32_t loaded_wall = -1;                 ///< the first that moves; its push is the load of the stage
+    Vec3 load_direction;                           ///< unit, of its push [-]
+    std::optional<double> duration;                ///< [s]
+    std::optional<double> load_drop;               ///< share of the peak load of this stage [-]
+    std::optional<double> load;                    ///< push of the loaded wall [N]
+    std::optional<double> stress;                  ///< the same over the section when the stage begins [Pa]
+    std::optional<double> displacement;            ///< closing of the walls [m]
     std::optional<double> unbalanced_force_ratio;  ///< [-]
     std::optional<double> rest;                    ///< kinetic energy over its largest in the stage [-]
     std::optional<double> rest_energy;  ///< at rest: kinetic energy below this, the load that of the weight [J]

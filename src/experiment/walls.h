@@ -24,8 +24,8 @@ void add_plate(Model& model, State& state, int wall, const Vec3& face_center, co
 int add_cylinder(Model& model, State& state, int wall, const Vec3& axis, double length, const Vec3& center,
                  double radius);
 
-/// Container of wall `wall`: plates that look inwards at the six sides of a box of inner lengths `inside`, but for those
-/// that `open` names, as "+z".
+/// Container of wall `wall`: plates that look inwards at the six sides of a box of inner lengths `inside`, but for
+/// those that `open` names, as "+z".
 void add_box(Model& model, State& state, int wall, const Vec3& center, const Vec3& inside, double thickness,
              const std::vector<std::string>& open);
 

@@ -248,7 +248,8 @@ int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& 
     shapes.reserve(grains.size());
     for (const GrainSpec& g : grains) shapes.push_back(g.shape);
     const auto distance = [&](const SharedFace& face) {
-        const Vec3 between = grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site;
+        const Vec3 between =
+            grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site;
         return std::fabs(dot(between, face.normal));
     };
     return bond_faces(model, state, find_shared_faces(shapes), distance, seed, rule_of);

@@ -59,7 +59,8 @@ struct BondRule {
 int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& grains, std::int64_t seed,
                       const std::function<const BondRule*(int, int)>& rule_of);
 
-/// The same for faces between bodies where they are now, sorted by pair. `distance`: of the two sites across a face [m].
+/// The same for faces between bodies where they are now, sorted by pair. `distance`: of the two sites across a face
+/// [m].
 int bond_faces(Model& model, State& state, const std::vector<SharedFace>& faces,
                const std::function<double(const SharedFace&)>& distance, std::int64_t seed,
                const std::function<const BondRule*(int, int)>& rule_of);

@@ -223,7 +223,8 @@ std::string why_not_closed(const TriangleMesh& mesh)
         else if (other == at.end())
             ++border;
     }
-    if (border > 0) return std::to_string(border) + (border == 1 ? " edge belongs" : " edges belong") + " to one triangle only";
+    if (border > 0)
+        return std::to_string(border) + (border == 1 ? " edge belongs" : " edges belong") + " to one triangle only";
     if (crowded > 0)
         return std::to_string(crowded) + (crowded == 1 ? " edge joins" : " edges join") +
                " more than two triangles, or two that are wound differently";
@@ -259,9 +260,8 @@ std::vector<std::vector<Vec3>> convex_facets(const TriangleMesh& mesh, int most_
                 if (found == neighbours.end() || found->second.size() != 1) continue;
                 const auto other = static_cast<std::size_t>(found->second.front());
                 const auto& c = mesh.triangles[other];
-                const bool flat = std::all_of(c.begin(), c.end(), [&](int v) {
-                    return std::fabs(dot(n, at(v)) - offset) <= tolerance;
-                });
+                const bool flat = std::all_of(c.begin(), c.end(),
+                                              [&](int v) { return std::fabs(dot(n, at(v)) - offset) <= tolerance; });
                 if (done[other] != 0 || !flat || dot(normals[other], n) < 1.0 - same_normal) continue;
                 done[other] = 1;
                 open.push_back(other);

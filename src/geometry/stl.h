@@ -11,7 +11,7 @@
 namespace grainfrac {
 
 struct TriangleMesh {
-    std::vector<Vec3> vertices;                ///< welded: no two are closer than weld_tolerance [unit of the file]
+    std::vector<Vec3> vertices;                 ///< welded: no two are closer than weld_tolerance [unit of the file]
     std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
 };
 

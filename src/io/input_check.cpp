@@ -267,8 +267,8 @@ private:
             fail(path + ".file", "must not be empty");
         servo(w.servo, path, w.shape == "plate");
         if (given(path + ".servo") && c_.test.kind != "custom" && right("test.kind")) {
-            fail(path + ".servo", fmt::format("a {} test drives its own walls; use test.kind = \"custom\"",
-                                              c_.test.kind));
+            fail(path + ".servo",
+                 fmt::format("a {} test drives its own walls; use test.kind = \"custom\"", c_.test.kind));
         }
     }
 

@@ -468,7 +468,8 @@ void describe(V& v, WallSpec& s)
        .meaning = "plate: 2 extents in its plane, first along x (along y if the normal is along x), then across; box: "
                   "3 inner lengths"});
     v("open", s.open,
-      {.words = "+x | -x | +y | -y | +z | -z", .used = {box.holds && !s.open.empty(), box.holds ? "" : box.text},
+      {.words = "+x | -x | +y | -y | +z | -z",
+       .used = {box.holds && !s.open.empty(), box.holds ? "" : box.text},
        .meaning = "sides of a box that have no plate"});
     v("thickness", s.thickness,
       {.unit = "m", .range = not_negative, .used = flat, .meaning = "of the plates; 0: a tenth of the larger extent"});

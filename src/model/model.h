@@ -52,10 +52,7 @@ struct WallMotion {
         const double rise = smooth_rise(time, start, ramp);
         return rise < 1.0 ? from_velocity + rise * (velocity - from_velocity) : velocity;
     }
-    GF_FN double push_at(double time) const
-    {
-        return from_push + smooth_rise(time, start, ramp) * (push - from_push);
-    }
+    GF_FN double push_at(double time) const { return from_push + smooth_rise(time, start, ramp) * (push - from_push); }
     bool has_servo() const { return norm2(push_direction) > 0.0; }
 };
 

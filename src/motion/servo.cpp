@@ -59,10 +59,10 @@ double resistance(const Model& model, const State& state, int wall, double dt)
     const Device d = model.device;
     const Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
-    return parallel_sum(d, c.size(),
-                        Resistance{wall, dt, b.wall.read(d), c.a.read(d), c.b.read(d), c.law.read(d), c.active.read(d),
-                                   b.inverse_mass.read(d), model.contact_laws.read(d), c.stiffness_scale.read(d),
-                                   c.point.read(d)});
+    return parallel_sum(
+        d, c.size(),
+        Resistance{wall, dt, b.wall.read(d), c.a.read(d), c.b.read(d), c.law.read(d), c.active.read(d),
+                   b.inverse_mass.read(d), model.contact_laws.read(d), c.stiffness_scale.read(d), c.point.read(d)});
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 //
 //   v = beta (F_wanted - F)/R,   |v| <= max_speed,   R = sum of k_c C A dt + c_n of the wall's contacts
 //
-// so that over the contacts alone the missing push would shrink by 1 - beta. The dashpots c_n of viscous contacts answer
-// a speed at once; left out, the wall would chatter. To the specimen the wall is a dashpot R/beta beside a constant
-// force: it takes energy out of vibrations and puts none in.
+// so that over the contacts alone the missing push would shrink by 1 - beta. The dashpots c_n of viscous contacts
+// answer a speed at once; left out, the wall would chatter. To the specimen the wall is a dashpot R/beta beside a
+// constant force: it takes energy out of vibrations and puts none in.
 #pragma once
 
 #include "model/model.h"

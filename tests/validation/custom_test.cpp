@@ -104,7 +104,8 @@ TEST_CASE("custom: a servo holds its stress and its work is in the account")
     Built b = begun(c);
     enter(b, 0);
     const double dt = stable_step(b), wanted = 50e6 * hexagon;
-    // speed for what is wanted in the ramp: 50 MPa/E of 5 mm in 10 us is 60 mm/s; the auto limit is 0.01 sigma_c/(rho c)
+    // speed for what is wanted in the ramp: 50 MPa/E of 5 mm in 10 us is 60 mm/s; the auto limit is 0.01 sigma_c/(rho
+    // c)
     CHECK(b.experiment.stages[0].servos[1].max_speed == 0.0);
     CHECK(b.experiment.stages[0].servos[0].max_speed == Approx(0.01 * 100e6 / std::sqrt(3100 * 410e9)));
     double fastest = 0.0;
@@ -121,7 +122,7 @@ TEST_CASE("custom: a servo holds its stress and its work is in the account")
     CAPTURE(dt, held_from, push_on(b, 0, {0, 0, -1}) / wanted, ledger_error(b));
     CHECK(fastest <= b.experiment.stages[0].servos[0].max_speed * (1 + 1e-12));
     CHECK(held_from > 0);
-    CHECK(held_from < steps / 2);                                               // and never lost again
+    CHECK(held_from < steps / 2);                                      // and never lost again
     CHECK(push_on(b, 0, {0, 0, -1}) == Approx(wanted).epsilon(1e-6));  // it has come to rest
     CHECK(push_on(b, 1, {0, 0, 1}) == Approx(wanted).epsilon(1e-6));
     CHECK(servos_hold(b.model, b.state));
@@ -194,7 +195,8 @@ TEST_CASE("custom: bonds after compaction join what touches without stress and a
     };
     const Measurement m1 = loaded(b), r1 = loaded(reference), m = loaded(b), r = loaded(reference);
     const double residual = energy_ledger(b.model, b.state).residual(), r_err = ledger_error(reference);
-    CAPTURE(m.load, r.load, m.displacement, r.displacement, ledger_error(b), before.relative_error(), before.residual(), residual, r_err, made.area/(3*area)-1);
+    CAPTURE(m.load, r.load, m.displacement, r.displacement, ledger_error(b), before.relative_error(), before.residual(),
+            residual, r_err, made.area / (3 * area) - 1);
     CHECK(m.load - m1.load == Approx(r.load - r1.load).epsilon(1e-5));
     REQUIRE(m.displacement == Approx(r.displacement).epsilon(1e-9));
     CHECK(m.load > 10 * compacted);
@@ -513,8 +515,8 @@ TEST_CASE("debug custom", "[.debug]")
     loose.contacts[0].normal_stiffness = 4e14;
     if (std::getenv("FRIC")) loose.contacts[0].friction = 0.3;
     if (std::getenv("VISC")) {
-    loose.contacts[0].dissipation = "viscous";
-    loose.contacts[0].restitution = 0.5;
+        loose.contacts[0].dissipation = "viscous";
+        loose.contacts[0].restitution = 0.5;
     }
     StageSpec press = pressing("compact", "top", 1e6);
     press.kind = "compact";
@@ -527,7 +529,8 @@ TEST_CASE("debug custom", "[.debug]")
     for (int k = 0; k < 40; ++k) {
         run_steps(b, dt, std::getenv("FINE") ? 800 : 200);
         const Ledger e = energy_ledger(b.model, b.state);
-        std::printf("%g push %.4g v %.3g | ext %.3g kin %.3g el %.3g fric %.3g damp %.3g res %.3g\n", b.state.time, push_on(b, 0, {0, 0, -1}),
-                    b.state.bodies.velocity[4].z, e.external, e.kinetic, e.elastic_contacts, e.friction, e.damping, e.residual());
+        std::printf("%g push %.4g v %.3g | ext %.3g kin %.3g el %.3g fric %.3g damp %.3g res %.3g\n", b.state.time,
+                    push_on(b, 0, {0, 0, -1}), b.state.bodies.velocity[4].z, e.external, e.kinetic, e.elastic_contacts,
+                    e.friction, e.damping, e.residual());
     }
 }

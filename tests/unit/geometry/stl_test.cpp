@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/polyhedron.h"
 #include "geometry/stl.h"
+
+#include "geometry/polyhedron.h"
 
 #include <catch2/catch.hpp>
 
