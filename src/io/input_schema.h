@@ -436,7 +436,8 @@ void describe(V& v, ServoSpec& s)
        .used = {!s.force.has_value(), "stress"},
        .unset = "section, across `direction`, of the box around the grains when the stage begins",
        .meaning = "of `stress`"});
-    v("direction", s.direction, {.meaning = "of the push; plates: left out, their normal"});
+    v("direction", s.direction,
+      {.used = {norm2(s.direction) > 0.0}, .meaning = "of the push; plates: left out, their normal"});
     v("max_speed", s.max_speed,
       {.unit = "m/s",
        .range = positive,
@@ -488,7 +489,8 @@ void describe(V& v, WallSpec& s)
     v("closed", s.closed,
       {.used = stl,
        .meaning = "every edge must belong to two triangles; false: an open surface is meant, such as a funnel"});
-    v("velocity", s.velocity, {.unit = "m/s", .meaning = "velocity, unless a stage says otherwise"});
+    v("velocity", s.velocity,
+      {.unit = "m/s", .used = {!s.servo.given()}, .meaning = "velocity, unless a stage says otherwise"});
     v.table("servo", s.servo,
             {.used = {s.servo.given()}, .meaning = "instead of a velocity: the wall moves so that it holds a push"});
     v("ramp", s.ramp,
@@ -499,7 +501,7 @@ template <class V>
 void describe(V& v, StageMotion& s)
 {
     v("wall", s.wall, {.required = always, .meaning = "name of a wall"});
-    v("velocity", s.velocity, {.unit = "m/s", .meaning = "its velocity in this stage"});
+    v("velocity", s.velocity, {.unit = "m/s", .used = {!s.servo.given()}, .meaning = "its velocity in this stage"});
     v.table("servo", s.servo,
             {.used = {s.servo.given()}, .meaning = "instead of a velocity: the wall moves so that it holds a push"});
 }
