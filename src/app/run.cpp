@@ -50,7 +50,7 @@ void warn_about_loading(const Built& b, const RunRecord& record)
     }
     const Ledger e = energy_ledger(b.model, b.state);
     const double scale = std::max({std::fabs(e.external), e.kinetic, e.initial});
-    const double by_contacts = e.inserted - record.split_energy;
+    const double by_contacts = e.inserted - record.split_energy - record.bonding_energy;
     if (std::fabs(by_contacts) > 1e-3 * scale) {
         spdlog::warn(
             "contacts that took over from bonds, or were shared out when a grain split, stored {:.2g} of the largest "
@@ -116,7 +116,7 @@ int run_command(const Options& o)
     watch_signals();
     SnapshotFields fields;
     const Ending ending = simulate(c, o, built, folder, record, fields);
-    if (ending.code == exit_code::unstable) spdlog::error("{}", ending.reason);
+    if (ending.code == exit_code::unstable || ending.code == exit_code::wrong_input) spdlog::error("{}", ending.reason);
     warn_about_loading(built, record);
     try {
         folder.finish(summary_json(facts, c, built, record, ending, fields), built.model, built.state, fields,

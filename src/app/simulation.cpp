@@ -4,10 +4,13 @@
 #include "app/progress.h"
 #include "app/signals.h"
 #include "contact/find_contacts.h"
+#include "experiment/bond_stage.h"
+#include "experiment/specimen.h"
 #include "fracture/clusters.h"
 #include "fracture/grain_stress.h"
 #include "model/grain_body.h"
 #include "model/validate.h"
+#include "motion/servo.h"
 #include "motion/step.h"
 #include "motion/time_step.h"
 
@@ -79,14 +82,14 @@ public:
         record_.cracks = CrackWatch(crack_scale(model_, state_));
         if (case_.output.checkpoint > 0.0) checkpoint();
         Ending ending{exit_code::done, "all stages done"};
-        for (const Stage& stage : experiment_.stages) {
+        for (std::size_t k = 0; k < experiment_.stages.size(); ++k) {
+            const Stage& stage = experiment_.stages[k];
             spdlog::info("stage \"{}\"", stage.name);
             begin_stage(stage, model_, state_);
-            stage_start_ = state_.time;
-            remember_walls(stage);
-            stage_peak_ = 0.0;
+            if (static_cast<int>(k) == experiment_.reference_stage) begin_reference();
+            remember_begin(stage);
             if (state_.step == 0) record_row(stage);
-            ending = run_stage(stage);
+            ending = stage.bonds ? bond_stage(stage, k) : run_stage(stage);
             if (!finished_stage_) break;
             if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time) break;
         }
@@ -126,7 +129,7 @@ private:
             if (state_.step % steps_between_checks == 0 && state_.step > 0)
                 shorten_step_if_needed(time_step_bound(model_, state_));
             const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
-            const bool cleave = !cleavage_.empty() && stage.fracture;
+            const bool cleave = !cleavage_.empty() && stage.cleavage;
             const bool ask_gate = cleave && state_.step + 1 >= state_.next_look;
             const auto before = Clock::now();
             step(model_, state_, dt_, snapshot || ask_gate);
@@ -153,23 +156,77 @@ private:
         }
     }
 
-    /// First body of the first wall that moves in this stage: its way from here is the stage's displacement.
-    void remember_walls(const Stage& stage)
+    /// Load, displacement, strain and peak of the test count from here.
+    void begin_reference()
     {
+        take_reference(experiment_, model_, state_);
+        record_.peak_load = record_.peak_stress = record_.peak_displacement = 0.0;
+        record_.peak_time = record_.load_start = state_.time;
+    }
+
+    void remember_begin(const Stage& stage)
+    {
+        stage_start_ = state_.time;
+        stage_kinetic_ = 0.0;
         stage_body_ = -1;
-        for (std::size_t w = 0; w < stage.wall_velocity.size() && stage_body_ < 0; ++w) {
-            if (norm(stage.wall_velocity[w]) == 0.0) continue;
-            for (int i = 0; i < state_.bodies.size() && stage_body_ < 0; ++i) {
-                if (state_.bodies.wall[i] == static_cast<std::int32_t>(w)) stage_body_ = i;
-            }
+        for (int i = 0; i < state_.bodies.size() && stage_body_ < 0 && stage.loaded_wall >= 0; ++i) {
+            if (state_.bodies.wall[i] == stage.loaded_wall) stage_body_ = i;
         }
         if (stage_body_ >= 0) stage_origin_ = state_.bodies.position[stage_body_];
+        stage_section_ =
+            stage.stress ? section_across(specimen_extent(model_, state_).size(), stage.load_direction) : 0.0;
+        stage_peak_ = stage_first_load_ = stage.unloads ? stage_load(stage) : 0.0;
+    }
+    /// Push of the first wall that the stage moves; of ready-made tests and stages that move none, the test's load [N].
+    double stage_load(const Stage& stage) const
+    {
+        if (stage.loaded_wall < 0) return record_.rows.empty() ? 0.0 : record_.rows.back().load;
+        return wall_push(model_, state_, stage.loaded_wall, stage.load_direction);
     }
     /// Of a ready-made test: closing of both platens; else how far the stage's first moving wall went [m].
     double stage_displacement() const
     {
         if (experiment_.kind != "custom") return record_.rows.back().displacement;
         return stage_body_ < 0 ? 0.0 : norm(state_.bodies.position[stage_body_] - stage_origin_);
+    }
+
+    /// Bonds between what faces each other now; takes no time.
+    Ending bond_stage(const Stage& stage, std::size_t k)
+    {
+        const auto refused = [&](const std::string& why) {
+            return Ending{exit_code::wrong_input, fmt::format("stages[{}]: {}", k, why)};
+        };
+        finished_stage_ = false;
+        BondsMade made;
+        try {
+            made = make_bonds(model_, state_, *stage.bonds, case_.simulation.seed);
+        } catch (const InputError& e) {
+            return refused(fmt::format("{}: {}", e.problems.front().key, e.problems.front().message));
+        }
+        if (made.number == 0) {
+            return refused(fmt::format("no faces of grains lie against each other within bond_distance = {:.4g} m",
+                                       stage.bonds->distance));
+        }
+        if (const std::string why = why_not_valid(model_, state_); !why.empty())
+            throw std::logic_error("new bonds made an impossible state: " + why);
+        record_.bonding_energy -= made.removed_energy;
+        const Vec3 p = made.before.linear, L = made.before.angular;
+        spdlog::info(
+            "{} bonds of {:.4g} m^2 made; taken out to begin without stress: {:.4g} J, momentum ({:.3g}, {:.3g}, "
+            "{:.3g}) "
+            "kg m/s, angular momentum ({:.3g}, {:.3g}, {:.3g}) kg m^2/s",
+            made.number, made.area, made.removed_energy, p.x, p.y, p.z, L.x, L.y, L.z);
+        if (!case_.control.time_step) {
+            choose_step();
+        } else if (const TimeStepBound bound = time_step_bound(model_, state_); dt_ > bound.with_damping) {
+            return {exit_code::wrong_input, fmt::format("control.time_step: must be <= {:.4g} s, the stability limit "
+                                                        "once the bonds are made ({})",
+                                                        bound.with_damping, bound.limiter)};
+        }
+        broken_ = -1;  // fragments are to be counted anew
+        record_row(stage);
+        finished_stage_ = true;
+        return {exit_code::done, fmt::format("{} bonds made", made.number)};
     }
 
     void shorten_step_if_needed(const TimeStepBound& bound)
@@ -237,7 +294,7 @@ private:
         for (const auto& face : p.faces) out << fmt::format("face {}\n", fmt::join(face, " "));
     }
 
-    void record_row(const Stage&)
+    void record_row(const Stage& stage)
     {
         const auto before = Clock::now();
         const Measurement m = measure(experiment_, model_, state_);
@@ -264,7 +321,8 @@ private:
             record_.peak_displacement = m.displacement;
             record_.imbalance_at_peak = m.platen_imbalance;
         }
-        stage_peak_ = std::max(stage_peak_, m.load);
+        stage_peak_ = std::max(stage_peak_, stage_load(stage));
+        stage_kinetic_ = std::max(stage_kinetic_, r.energy.kinetic);
         next_history_ = state_.time + history_;
         record_.phases.output += seconds_since(before);
     }
@@ -326,13 +384,22 @@ private:
         if (s.displacement && stage_displacement() >= *s.displacement) {
             return fmt::format("displacement {:.4g} m reached", stage_displacement());
         }
-        if (s.load_drop && broken_or_damaged() && r.load < (1.0 - *s.load_drop) * stage_peak_) {
+        const double load = stage_load(s);
+        if (s.load && load >= *s.load) return fmt::format("load {:.5g} N reached", load);
+        if (s.stress && load >= *s.stress * stage_section_)
+            return fmt::format("stress {:.5g} Pa reached", load / stage_section_);
+        if (s.load_drop && s.unloads && load <= (1.0 - *s.load_drop) * stage_first_load_)
+            return fmt::format("load went back from {:.5g} to {:.5g} N", stage_first_load_, load);
+        if (s.load_drop && !s.unloads && broken_or_damaged() && load < (1.0 - *s.load_drop) * stage_peak_) {
             return fmt::format("load dropped by {:.0f} % from its peak {:.5g} N", 100.0 * *s.load_drop, stage_peak_);
         }
-        if (s.unbalanced_force_ratio && state_.time > stage_start_ + s.ramp &&
-            r.unbalanced_force_ratio < *s.unbalanced_force_ratio) {
+        // what a moving wall has not reached yet is not at rest
+        const bool settled = state_.time > stage_start_ + s.ramp && (s.loaded_wall < 0 || load > 0.0) &&
+                             (s.servos.empty() || servos_hold(model_, state_));
+        if (s.unbalanced_force_ratio && settled && r.unbalanced_force_ratio < *s.unbalanced_force_ratio)
             return fmt::format("unbalanced force ratio below {:.2g}", *s.unbalanced_force_ratio);
-        }
+        if (s.rest && settled && r.energy.kinetic < *s.rest * stage_kinetic_ && r.unbalanced_force_ratio < balanced)
+            return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
         if (s.rest_energy && r.energy.kinetic < *s.rest_energy && std::fabs(r.load - s.weight) < balanced * s.weight)
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
         if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time)
@@ -390,7 +457,7 @@ private:
     const Case& case_;
     Model& model_;
     State& state_;
-    const Experiment& experiment_;
+    Experiment& experiment_;
     const std::vector<CleavageRules>& cleavage_;
     ResultFolder& folder_;
     RunRecord& record_;
@@ -398,7 +465,7 @@ private:
     Progress progress_;
     double dt_ = 0.0, history_ = 0.0, every_ = 0.0;
     double next_history_ = 0.0, next_snapshot_ = 0.0;
-    double stage_start_ = 0.0, stage_peak_ = 0.0;
+    double stage_start_ = 0.0, stage_peak_ = 0.0, stage_first_load_ = 0.0, stage_section_ = 0.0, stage_kinetic_ = 0.0;
     int stage_body_ = -1;
     Vec3 stage_origin_;
     bool finished_stage_ = false;
@@ -412,6 +479,7 @@ void monitor_quasi_static(RunRecord& record)
 {
     for (const HistoryRow& r : record.rows) {
         if (r.time > record.peak_time) break;
+        if (r.time < record.load_start) continue;
         const double elastic = r.energy.elastic_bonds + r.energy.elastic_contacts;
         if (r.load < monitored_load * record.peak_load || elastic <= 0.0) continue;
         record.kinetic_over_elastic = std::max(record.kinetic_over_elastic, r.energy.kinetic / elastic);

@@ -32,6 +32,7 @@ struct RunRecord {
     double peak_load = 0.0;             ///< [N]
     double peak_stress = 0.0;           ///< [Pa]
     double peak_time = 0.0;             ///< [s]
+    double load_start = 0.0;            ///< where load and displacement count from [s]
     double peak_displacement = 0.0;     ///< [m]
     double kinetic_over_elastic = 0.0;  ///< largest from 10 % of the peak load to the peak [-]
     double imbalance_at_peak = 0.0;     ///< [-]
@@ -45,6 +46,7 @@ struct RunRecord {
     std::int64_t splits = 0;
     double split_area = 0.0;                             ///< of all planes that split a grain [m^2]
     double split_energy = 0.0;                           ///< that new surfaces held at the start [J]
+    double bonding_energy = 0.0;                         ///< put in, negative, where stages made bonds [J]
     std::map<std::string, std::int64_t> refused_splits;  ///< by reason
 };
 

@@ -24,9 +24,25 @@ struct ContactForces {
     View<double> twist_moment, max_overlap, offset_overlap, stiffness_scale, viscous_force, normal_force, stored_energy;
     View<double> friction_work, viscous_work, hysteresis_work, shear_stiffness, twist_stiffness, inserted_work;
 
+    /// The dashpot's second half step, at the speed with which the contact opened. Its arms are those of the last
+    /// force.
+    GF_FN double last_viscous_work(int i) const
+    {
+        if (active[i] != 1 || viscous_force[i] == 0.0) return 0.0;
+        double v_n = dot(body.velocity[b[i]] - body.velocity[a[i]], normal[i]);
+        if (normal_force[i] > 0.0) {
+            const int s = first_slot + i;
+            v_n += (dot(slot.torque_a[s], body.angular_velocity[a[i]]) +
+                    dot(slot.torque_b[s], body.angular_velocity[b[i]])) /
+                   normal_force[i];
+        }
+        return -0.5 * dt * viscous_force[i] * v_n;
+    }
+
     GF_FN void clear(int i) const
     {
         const int s = first_slot + i;
+        viscous_work[i] += last_viscous_work(i);
         slot.force[s] = slot.torque_a[s] = slot.torque_b[s] = Vec3{};
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
         if (active[i] > 0) {  // what the springs along the surfaces still held is lost to the last slip

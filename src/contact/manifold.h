@@ -28,6 +28,10 @@ namespace grainfrac {
 /// Cores nearer than this share of the summed dilation radii are penetrating: an error state, never extrapolated.
 inline constexpr double core_contact_share = 1e-6;
 
+/// A penetration below this share of the summed radii is round-off: no contact yet, since its area would be noise, and
+/// with it stiffness and dashpot.
+inline constexpr double least_penetration = 1e-10;
+
 /// One body of a pair.
 struct ContactBody {
     ShapesView shapes;
@@ -383,7 +387,7 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
     ContactPoint c;
     const double radii = a.radius() + b.radius();
     const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position);
-    if (near.distance >= radii) return c;
+    if (near.distance >= (1.0 - least_penetration) * radii) return c;
     if (near.distance <= core_contact_share * radii) {
         c.depth = radii;
         return c;

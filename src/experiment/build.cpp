@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/find_contacts.h"
 #include "contact/find_pairs.h"
+#include "contact/gather.h"
 #include "experiment/bending.h"
 #include "experiment/brazilian.h"
 #include "experiment/cleavage_rules.h"
@@ -11,10 +12,12 @@
 #include "experiment/laws.h"
 #include "experiment/pre_cut.h"
 #include "experiment/precrack.h"
+#include "experiment/specimen.h"
 #include "experiment/uniaxial.h"
 #include "experiment/walls.h"
 #include "generate/microstructure.h"
 #include "model/validate.h"
+#include "motion/servo.h"
 #include "motion/step.h"
 
 #include <fmt/format.h>
@@ -83,49 +86,6 @@ std::vector<double> grain_spacing(const Model& model, const std::vector<GrainSpe
     }
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = count[i] > 0 ? sum[i] / count[i] : 0.0;
     return sum;
-}
-
-/// A bilinear point needs lambda_f > lambda_0: G_I > sigma_c^2/(2 k_n) and G_II > c^2/(2 k_s), or it would snap back
-/// within itself.
-void check_snap_back(const Model& model, const State& state, const BondTable& table)
-{
-    struct Worst {
-        double needed_I = 0.0, needed_II = 0.0;
-    };
-    const InterfaceBonds& f = state.interfaces;
-    std::vector<Worst> worst(static_cast<std::size_t>(model.interface_laws.size()));
-    std::vector<int> entry(worst.size(), -1);
-    for (int i = 0; i < f.size(); ++i) {
-        const InterfaceLaw law = model.interface_laws[f.law[i]];
-        const bool given = law.softening == Softening::bilinear && law.failure != FailureUnit::unbreakable;
-        if (!given || f.transgranular[i] != 0) continue;  // cleavage planes are stiff enough by their own rule
-        Worst& w = worst[static_cast<std::size_t>(f.law[i])];
-        const double scale = f.strength_factor[i] * f.strength_factor[i] / f.toughness_factor[i];
-        w.needed_I =
-            std::max(w.needed_I, scale * law.tensile_strength * law.tensile_strength / (2.0 * f.normal_stiffness[i]));
-        w.needed_II = std::max(w.needed_II, scale * law.cohesion * law.cohesion / (2.0 * f.shear_stiffness[i]));
-        if (entry[static_cast<std::size_t>(f.law[i])] < 0) {
-            entry[static_cast<std::size_t>(f.law[i])] =
-                table.entry_of(*table.rule_of(state.bodies.group[f.a[i]], state.bodies.group[f.b[i]]));
-        }
-    }
-    std::vector<InputProblem> problems;
-    for (std::size_t l = 0; l < worst.size(); ++l) {
-        const InterfaceLaw law = model.interface_laws[static_cast<int>(l)];
-        const auto refuse = [&](const char* key, double found, double needed, const char* formula) {
-            if (needed < found) return;
-            problems.push_back({fmt::format("bonds[{}].{}", entry[l], key),
-                                fmt::format("must be > {} = {:.4g} J/m^2 for the stiffest face, or the bond snaps back "
-                                            "within itself; raise it, "
-                                            "lower the strength, refine the grains, or set softening = \"brittle\"",
-                                            formula, needed)});
-        };
-        if (worst[l].needed_I > 0.0)
-            refuse("fracture_energy_I", law.fracture_energy_I, worst[l].needed_I, "tensile_strength^2/(2 k_n)");
-        if (worst[l].needed_II > 0.0)
-            refuse("fracture_energy_II", law.fracture_energy_II, worst[l].needed_II, "cohesion^2/(2 k_s)");
-    }
-    if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 void check_bonds_exist(const Case& c, const Model& model, const State& state, const BondTable& table)
@@ -238,19 +198,14 @@ Built build(const Case& c, Device device)
     check_snap_back(model, state, table);
 
     model.gravity = c.control.gravity;
-    for (const WallSpec& w : c.walls) add_wall(model, state, w);
+    for (std::size_t k = 0; k < c.walls.size(); ++k)
+        add_wall(model, state, c.walls[k], fmt::format("walls[{}]", k), c.file);
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);
 
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
-    double strength = 0.0;
-    for (const BondSpec& b : c.bonds) {
-        if (b.tensile_strength > 0.0)
-            strength = strength > 0.0 ? std::min(strength, b.tensile_strength) : b.tensile_strength;
-    }
-    const Material& m = model.materials.front();
-    built.experiment.quasi_static_speed = 0.01 * strength / std::sqrt(m.density * m.young_modulus);
+    built.experiment.quasi_static_speed = quasi_static_speed(c, model);
     if (const std::string why = why_not_valid(model, state); !why.empty())
         throw std::logic_error("built an impossible state: " + why);
     check_nothing_overlaps(c, model, state);
@@ -284,21 +239,40 @@ Measurement measure(const Experiment& e, const Model&, const State& state)
         m.load = 0.5 * (push + other_push);
         if (m.load != 0.0) m.platen_imbalance = std::fabs(push - other_push) / std::fabs(m.load);
     }
+    m.displacement -= s.start_displacement;
     if (s.length > 0.0) m.strain = m.displacement / s.length;
     if (s.stress_area > 0.0) m.stress = m.load / s.stress_area;
     return m;
 }
 
-void begin_stage(const Stage& stage, Model& model, const State& state)
+void begin_stage(const Stage& stage, Model& model, State& state)
 {
     auto& motions = model.wall_motion.host();
     for (std::size_t w = 0; w < motions.size(); ++w) {
-        const Vec3 now = motions[w].at(state.time);
         const Vec3 wanted = w < stage.wall_velocity.size() ? stage.wall_velocity[w] : Vec3{};
-        motions[w] = {now, wanted, state.time, stage.ramp};
+        motions[w] = {motions[w].at(state.time), wanted, state.time, stage.ramp, {}, 0.0, 0.0, 0.0};
+        if (w >= stage.servos.size() || norm2(stage.servos[w].direction) == 0.0) continue;
+        const Servo& servo = stage.servos[w];
+        const auto section = [&] { return section_across(specimen_extent(model, state).size(), servo.direction); };
+        motions[w].push_direction = servo.direction;
+        motions[w].push = servo.force ? *servo.force : servo.stress * (servo.area ? *servo.area : section());
+        motions[w].from_push = wall_push(model, state, static_cast<int>(w), servo.direction);
+        motions[w].max_speed = servo.max_speed;
     }
     model.local_damping = stage.local_damping;
     model.fracture_active = stage.fracture;
+    if (stage.gravity && norm2(*stage.gravity - model.gravity) > 0.0) {  // the next half kick already works with it
+        model.gravity = *stage.gravity;
+        gather_forces(model, state);
+    }
+}
+
+void take_reference(Experiment& e, const Model& model, const State& state)
+{
+    const Vec3 size = specimen_extent(model, state).size();
+    e.specimen.length = length_along(size, e.specimen.load_direction);
+    e.specimen.stress_area = section_across(size, e.specimen.load_direction);
+    e.specimen.start_displacement += measure(e, model, state).displacement;
 }
 
 double unbalanced_force_ratio(const State& state)

@@ -3,6 +3,8 @@
 
 #include "generate/crystal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -105,6 +107,13 @@ std::vector<CleavageRules> make_cleavage_rules(const Case& c, const std::vector<
         const CleavageSpec& s = m.cleavage;
         if (s.planes.empty()) continue;
         CleavageRules& r = rules[g];
+        const double crack = s.flaw == "edge" ? s.flaw_size : 2.0 * s.flaw_size;
+        if (crack >= spacing[g]) {
+            throw InputError(fmt::format("materials.{}.cleavage.flaw_size", m.name),
+                             fmt::format("must be < {:.6g} m: the flaw would be longer than the ball that fits in a "
+                                         "grain of \"{}\" is wide",
+                                         spacing[g] * s.flaw_size / crack, part.name));
+        }
         const double side = s.slabs && part.generator == "hexagonal_prisms" ? part.side : 0.0;
         for (std::size_t k = 0; k < s.planes.size(); ++k) {
             const CleavageLaw law = cleavage_law(s, m, s.toughness.size() == 1 ? s.toughness[0] : s.toughness[k]);

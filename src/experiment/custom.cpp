@@ -10,29 +10,105 @@ namespace grainfrac {
 
 namespace {
 
+/// Brake of a stage that settles, unless told.
+constexpr double settling_damping = 0.7;
+/// Speed of a servo where no strength sets one, over the wave speed: as for bonds that bear 1e-3 E.
+constexpr double unbonded_servo_speed = 1e-5;
+
 int wall_named(const Model& model, const std::string& name)
 {
     return static_cast<int>(std::find(model.walls.begin(), model.walls.end(), name) - model.walls.begin());
 }
 
-Stage make_stage(const Case& c, const StageSpec& s, const Model& model)
+Servo make_servo(const ServoSpec& s, const WallSpec& wall, double fastest)
+{
+    if (!s.given()) return {};
+    const Vec3 direction = norm2(s.direction) > 0.0 ? s.direction : wall.normal;
+    return {normalized(direction), s.force, s.stress.value_or(0.0), s.area, s.max_speed.value_or(fastest)};
+}
+
+/// The first wall that moves in a stage is what it loads with. `back`: the push is against the motion.
+void set_load(Stage& s, int wall, bool back)
+{
+    const auto w = static_cast<std::size_t>(wall);
+    const bool servo = norm2(s.servos[w].direction) > 0.0;
+    if (s.loaded_wall >= 0 || (!servo && norm2(s.wall_velocity[w]) == 0.0)) return;
+    s.loaded_wall = wall;
+    s.load_direction = servo ? s.servos[w].direction : (back ? -1.0 : 1.0) * normalized(s.wall_velocity[w]);
+}
+
+Stage make_stage(const Case& c, const StageSpec& s, const std::vector<Stage>& before, Model& model)
 {
     Stage stage;
     stage.name = s.name;
-    for (const WallSpec& w : c.walls) {
-        stage.wall_velocity.push_back(w.velocity);
-        stage.ramp = std::max(stage.ramp, w.ramp);
+    stage.wall_velocity.resize(c.walls.size());
+    if (s.kind == "bond") {
+        stage.bonds = BondsToMake{BondTable(c, model, s.name), s.bond_distance, s.bond_angle};
+        return stage;
     }
-    for (const StageMotion& m : s.motions)
-        stage.wall_velocity[static_cast<std::size_t>(wall_named(model, m.wall))] = m.velocity;
+    const Material& m = model.materials.front();
+    const double slow = quasi_static_speed(c, model),
+                 fastest = slow > 0.0 ? slow : unbonded_servo_speed * std::sqrt(m.young_modulus / m.density);
+    stage.servos.resize(c.walls.size());
+    for (std::size_t w = 0; w < c.walls.size(); ++w) {
+        stage.wall_velocity[w] = c.walls[w].velocity;
+        stage.servos[w] = make_servo(c.walls[w].servo, c.walls[w], fastest);
+        stage.ramp = std::max(stage.ramp, c.walls[w].ramp);
+    }
+    stage.unloads = s.kind == "unload";
+    for (const StageMotion& move : s.motions) {
+        const int wall = wall_named(model, move.wall);
+        const auto w = static_cast<std::size_t>(wall);
+        stage.wall_velocity[w] = move.velocity;
+        stage.servos[w] = make_servo(move.servo, c.walls[w], fastest);
+        set_load(stage, wall, stage.unloads);
+    }
+    if (stage.unloads && s.motions.empty()) {
+        const auto last =
+            std::find_if(before.rbegin(), before.rend(), [](const Stage& b) { return b.loaded_wall >= 0; });
+        for (std::size_t w = 0; w < c.walls.size(); ++w) stage.wall_velocity[w] = -last->wall_velocity[w];
+        stage.loaded_wall = last->loaded_wall;
+        stage.load_direction = last->load_direction;
+    }
+    for (std::size_t w = 0; w < c.walls.size(); ++w) set_load(stage, static_cast<int>(w), stage.unloads);
     if (s.ramp > 0.0) stage.ramp = s.ramp;
-    stage.local_damping = s.local_damping.value_or(c.control.local_damping);
+    stage.gravity = s.gravity.value_or(c.control.gravity);
+    stage.local_damping = s.local_damping.value_or(s.kind == "settle" ? settling_damping : c.control.local_damping);
     stage.fracture = s.fracture;
+    stage.cleavage = s.cleavage;
     stage.duration = s.duration;
     stage.load_drop = s.load_drop;
+    if (stage.unloads && !s.load_drop) stage.load_drop = 1.0;
+    stage.load = s.load;
+    stage.stress = s.stress;
     stage.displacement = s.max_displacement;
     stage.unbalanced_force_ratio = s.unbalanced_force_ratio;
+    stage.rest = s.rest;
     return stage;
+}
+
+/// The stage whose load is that of the test: the first of kind "load" that moves a wall, else the first of any kind.
+int loading_stage(const Case& c, const std::vector<Stage>& stages)
+{
+    int first = -1;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        if (stages[i].loaded_wall < 0) continue;
+        if (c.stages[i].kind == "load") return static_cast<int>(i);
+        if (first < 0) first = static_cast<int>(i);
+    }
+    return first;
+}
+
+/// Another wall that the stage moves against the loaded one, -1 if there is none.
+int opposite_wall(const Stage& s)
+{
+    for (std::size_t w = 0; w < s.wall_velocity.size(); ++w) {
+        const Vec3 v = s.wall_velocity[w];
+        if (static_cast<int>(w) != s.loaded_wall && norm2(v) > 0.0 &&
+            dot(v, s.load_direction) < -(1.0 - 1e-9) * norm(v))
+            return static_cast<int>(w);
+    }
+    return -1;
 }
 
 }  // namespace
@@ -43,19 +119,18 @@ Experiment set_up_custom(const Case& c, Model& model, State& state)
     e.kind = "custom";
     const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
     e.wave_speed = std::sqrt(m.young_modulus / m.density);
-    for (const StageSpec& s : c.stages) e.stages.push_back(make_stage(c, s, model));
     double longest = 0.0;
-    for (const Stage& s : e.stages) {
+    for (const StageSpec& s : c.stages) {
+        e.stages.push_back(make_stage(c, s, e.stages, model));
         longest += s.duration.value_or(0.0);
-        for (std::size_t w = 0; w < s.wall_velocity.size() && e.specimen.loaded_wall < 0; ++w) {
-            if (norm(s.wall_velocity[w]) == 0.0) continue;
-            const Vec3 d = normalized(s.wall_velocity[w]), size = specimen_extent(model, state).size();
-            e.specimen.loaded_wall = static_cast<std::int32_t>(w);
-            e.specimen.load_direction = d;
-            e.specimen.length = std::fabs(d.x) * size.x + std::fabs(d.y) * size.y + std::fabs(d.z) * size.z;
-            e.specimen.stress_area =
-                std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
-        }
+    }
+    e.reference_stage = loading_stage(c, e.stages);
+    if (e.reference_stage >= 0) {
+        const Stage& load = e.stages[static_cast<std::size_t>(e.reference_stage)];
+        e.specimen.loaded_wall = load.loaded_wall;
+        e.specimen.opposite_wall = opposite_wall(load);
+        e.specimen.load_direction = load.load_direction;
+        take_reference(e, model, state);
     }
     Stage& last = e.stages.back();  // what stops the test stops its last stage
     if (!last.load_drop) last.load_drop = c.test.stop.load_drop;

@@ -6,8 +6,9 @@
 
 namespace grainfrac {
 
-/// The load and displacement are those of the first wall that any stage moves; nominal strain refers to the specimen's
-/// extent along that motion, nominal stress to its bounding section across it.
+/// The load is the push of the first wall that moves in the first stage of kind "load" (else of any kind); a wall that
+/// comes towards it counts for displacement and load too. Nominal strain refers to the length of the box around the
+/// grains along that push, nominal stress to its section, both from where that stage begins.
 Experiment set_up_custom(const Case& c, Model& model, State& state);
 
 }  // namespace grainfrac

@@ -2,6 +2,7 @@
 // A ready-made test: platens, stages, what is measured, when it ends. Case in, everything that a run needs out.
 #pragma once
 
+#include "experiment/laws.h"
 #include "fracture/cleave.h"
 #include "model/case.h"
 #include "model/model.h"
@@ -13,17 +14,43 @@
 
 namespace grainfrac {
 
+/// A wall that holds a push in a stage; no direction: it moves at its velocity.
+struct Servo {
+    Vec3 direction;               ///< unit; zero: none [-]
+    std::optional<double> force;  ///< wanted [N]
+    double stress = 0.0;          ///< or this [Pa]
+    std::optional<double> area;   ///< times this; else the specimen's section when the stage begins [m^2]
+    double max_speed = 0.0;       ///< [m/s]
+};
+
+/// Bonds that a stage makes at once.
+struct BondsToMake {
+    BondTable table;
+    double distance = 0.0;  ///< largest gap or overlap of two faces [m]
+    double angle = 0.0;     ///< largest angle between them [rad]
+};
+
 /// One stage of the loading programme; the first end condition that holds ends it.
 struct Stage {
     std::string name;
-    std::vector<Vec3> wall_velocity;  ///< one per wall [m/s]
-    double ramp = 0.0;                ///< time over which walls change speed [s]
-    double local_damping = 0.0;       ///< [-]
-    bool fracture = true;
+    std::vector<Vec3> wall_velocity;               ///< one per wall [m/s]
+    std::vector<Servo> servos;                     ///< one per wall, or none at all
+    double ramp = 0.0;                             ///< time over which walls change speed or push [s]
+    std::optional<Vec3> gravity;                   ///< else as before [m/s^2]
+    double local_damping = 0.0;                    ///< [-]
+    bool fracture = true;                          ///< bonds may break
+    bool cleavage = true;                          ///< grains may split
+    std::optional<BondsToMake> bonds;              ///< made at the beginning; such a stage takes no time
+    bool unloads = false;                          ///< load_drop is a share of the load at the beginning
+    std::int32_t loaded_wall = -1;                 ///< the first that moves; its push is the load of the stage
+    Vec3 load_direction;                           ///< unit, of its push [-]
     std::optional<double> duration;                ///< [s]
     std::optional<double> load_drop;               ///< share of the peak load of this stage [-]
+    std::optional<double> load;                    ///< push of the loaded wall [N]
+    std::optional<double> stress;                  ///< the same over the section when the stage begins [Pa]
     std::optional<double> displacement;            ///< closing of the walls [m]
     std::optional<double> unbalanced_force_ratio;  ///< [-]
+    std::optional<double> rest;                    ///< kinetic energy over its largest in the stage [-]
     std::optional<double> rest_energy;  ///< at rest: kinetic energy below this, the load that of the weight [J]
     double weight = 0.0;                ///< for rest_energy [N]
 };
@@ -36,6 +63,7 @@ struct Specimen {
     std::int32_t loaded_wall = -1;    ///< its motion is the displacement, its force the load
     std::int32_t opposite_wall = -1;  ///< for imbalance; -1: none
     bool compression = true;          ///< load is the magnitude of a push
+    double start_displacement = 0.0;  ///< of the walls, where the displacement counts from [m]
 };
 
 /// A row of the history, as far as derived results need it.
@@ -55,6 +83,7 @@ struct Experiment {
     std::string kind;
     Specimen specimen;
     std::vector<Stage> stages;
+    int reference_stage = -1;         ///< where it begins, length, section and displacement are taken anew; -1: never
     double expected_duration = 0.0;   ///< guess from elasticity and strength, for output intervals and time left [s]
     double wave_speed = 0.0;          ///< sqrt(E/rho) of the first material [m/s]
     double quasi_static_speed = 0.0;  ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
@@ -85,8 +114,11 @@ Built build(const Case& c, Device device);
 /// Forces on the walls and how far they went.
 Measurement measure(const Experiment& e, const Model& model, const State& state);
 
-/// Set wall motions, damping and fracture switch of a stage that begins now.
-void begin_stage(const Stage& stage, Model& model, const State& state);
+/// Set wall motions, gravity, damping and fracture switch of a stage that begins now.
+void begin_stage(const Stage& stage, Model& model, State& state);
+
+/// Length, section and displacement refer to the state as it is now.
+void take_reference(Experiment& e, const Model& model, const State& state);
 
 /// Largest resultant on a free body over the mean force of its interactions [-].
 double unbalanced_force_ratio(const State& state);

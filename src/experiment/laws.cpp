@@ -92,18 +92,24 @@ NetworkStiffness network_stiffness(const std::string& kind, double E, double nu,
     return {E, shear_ratio.value_or(1.0)};
 }
 
-BondTable::BondTable(const Case& c, Model& model)
+BondTable::BondTable(const Case& c, Model& model, const std::string& made_in)
     : groups_(static_cast<int>(model.groups.size())), of_pair_(model.groups.size() * model.groups.size(), -1)
 {
     std::vector<std::array<std::string, 2>> betweens;
-    for (const BondSpec& s : c.bonds) betweens.push_back(s.between);
+    std::vector<int> entries;  // of [[bonds]]
+    for (std::size_t i = 0; i < c.bonds.size(); ++i) {
+        if (c.bonds[i].made_in != made_in) continue;
+        betweens.push_back(c.bonds[i].between);
+        entries.push_back(static_cast<int>(i));
+    }
     for (int a = 0; a < groups_; ++a) {
         for (int b = a; b < groups_; ++b) {
             const Group& ga = model.groups[static_cast<std::size_t>(a)];
             const Group& gb = model.groups[static_cast<std::size_t>(b)];
             if (ga.is_wall || gb.is_wall) continue;
-            const int entry = most_specific(betweens, model, a, b);
-            if (entry < 0) continue;
+            const int closest = most_specific(betweens, model, a, b);
+            if (closest < 0) continue;
+            const int entry = entries[static_cast<std::size_t>(closest)];
             const BondSpec& s = c.bonds[static_cast<std::size_t>(entry)];
             const Material& ma = model.materials[static_cast<std::size_t>(ga.material)];
             const Material& mb = model.materials[static_cast<std::size_t>(gb.material)];
@@ -149,6 +155,50 @@ const BondRule* BondTable::rule_of(int group_a, int group_b) const
 int BondTable::entry_of(const BondRule& rule) const
 {
     return entry_[static_cast<std::size_t>(&rule - rules_.data())];
+}
+
+void check_snap_back(const Model& model, const State& state, const BondTable& table)
+{
+    struct Worst {
+        double needed_I = 0.0, needed_II = 0.0;
+    };
+    const InterfaceBonds& f = state.interfaces;
+    std::vector<Worst> worst(static_cast<std::size_t>(model.interface_laws.size()));
+    std::vector<int> entry(worst.size(), -1);
+    const auto made_by = [&](int i) {  // by this table, else nullptr
+        const BondRule* rule = table.rule_of(state.bodies.group[f.a[i]], state.bodies.group[f.b[i]]);
+        const bool own = rule != nullptr && rule->kind == BondRule::Kind::interface && rule->law == f.law[i];
+        return own ? rule : nullptr;
+    };
+    for (int i = 0; i < f.size(); ++i) {
+        const InterfaceLaw law = model.interface_laws[f.law[i]];
+        const BondRule* rule = made_by(i);
+        if (rule == nullptr || law.softening != Softening::bilinear || law.failure == FailureUnit::unbreakable)
+            continue;
+        Worst& w = worst[static_cast<std::size_t>(f.law[i])];
+        const double scale = f.strength_factor[i] * f.strength_factor[i] / f.toughness_factor[i];
+        w.needed_I =
+            std::max(w.needed_I, scale * law.tensile_strength * law.tensile_strength / (2.0 * f.normal_stiffness[i]));
+        w.needed_II = std::max(w.needed_II, scale * law.cohesion * law.cohesion / (2.0 * f.shear_stiffness[i]));
+        entry[static_cast<std::size_t>(f.law[i])] = table.entry_of(*rule);
+    }
+    std::vector<InputProblem> problems;
+    for (std::size_t l = 0; l < worst.size(); ++l) {
+        const InterfaceLaw law = model.interface_laws[static_cast<int>(l)];
+        const auto refuse = [&](const char* key, double found, double needed, const char* formula) {
+            if (needed < found) return;
+            problems.push_back({fmt::format("bonds[{}].{}", entry[l], key),
+                                fmt::format("must be > {} = {:.4g} J/m^2 for the stiffest face, or the bond snaps back "
+                                            "within itself; raise it, "
+                                            "lower the strength, refine the grains, or set softening = \"brittle\"",
+                                            formula, needed)});
+        };
+        if (worst[l].needed_I > 0.0)
+            refuse("fracture_energy_I", law.fracture_energy_I, worst[l].needed_I, "tensile_strength^2/(2 k_n)");
+        if (worst[l].needed_II > 0.0)
+            refuse("fracture_energy_II", law.fracture_energy_II, worst[l].needed_II, "cohesion^2/(2 k_s)");
+    }
+    if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include "generate/assemble.h"
 #include "model/case.h"
 #include "model/model.h"
+#include "model/state.h"
 
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace grainfrac {
 int most_specific(const std::vector<std::array<std::string, 2>>& betweens, const Model& model, int group_a,
                   int group_b);
 
-/// One rule for every pair of groups that is bonded; fills interface_laws and parallel_laws.
+/// One rule for every pair of groups that is bonded at the start or by a stage; fills interface_laws and parallel_laws.
 class BondTable {
 public:
-    BondTable(const Case& c, Model& model);
+    /// Of the entries of [[bonds]] with this `made_in`; "": those that are there from the start.
+    BondTable(const Case& c, Model& model, const std::string& made_in = "");
     /// nullptr if the pair is not bonded.
     const BondRule* rule_of(int group_a, int group_b) const;
     /// Entry of [[bonds]] that the rule of law `law` came from.
@@ -30,6 +32,10 @@ private:
     std::vector<int> entry_;
     std::vector<int> of_pair_;
 };
+
+/// A bilinear point needs lambda_f > lambda_0: G_I > sigma_c^2/(2 k_n) and G_II > c^2/(2 k_s), or it would snap back
+/// within itself. Throws InputError where a bond of this table does not.
+void check_snap_back(const Model& model, const State& state, const BondTable& table);
 
 /// contact_laws and contact_law_of. `spacing`: mean grain spacing of each group, 0 for walls [m].
 void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model& model);

@@ -52,6 +52,27 @@ Extent specimen_extent(const Model& model, const State& state)
     return e;
 }
 
+double length_along(const Vec3& size, const Vec3& d)
+{
+    return std::fabs(d.x) * size.x + std::fabs(d.y) * size.y + std::fabs(d.z) * size.z;
+}
+
+double section_across(const Vec3& size, const Vec3& d)
+{
+    return std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
+}
+
+double quasi_static_speed(const Case& c, const Model& model)
+{
+    double strength = 0.0;
+    for (const BondSpec& b : c.bonds) {
+        if (b.tensile_strength > 0.0)
+            strength = strength > 0.0 ? std::min(strength, b.tensile_strength) : b.tensile_strength;
+    }
+    const Material& m = model.materials.front();
+    return 0.01 * strength / std::sqrt(m.density * m.young_modulus);
+}
+
 double mean_section(const Model& model, const State& state, int axis)
 {
     const Extent x = specimen_extent(model, state);

@@ -21,6 +21,13 @@ struct Extent {
 };
 Extent specimen_extent(const Model& model, const State& state);
 
+/// Of the box, along a direction and across it: |d_x| s_x + ..., |d_x| s_y s_z + ...
+double length_along(const Vec3& size, const Vec3& direction);
+double section_across(const Vec3& size, const Vec3& direction);
+
+/// 0.01 sigma_c/(rho c_0) of the weakest bonds, a bound for the speed of each platen; 0 without a strength [m/s].
+double quasi_static_speed(const Case& c, const Model& model);
+
 /// Mean section across an axis, away from the ends: sum of V_i sin^2(pi s_i) over L/2, s_i the grain's place along the
 /// axis, 0 to 1. The weight is smooth and vanishes with its slope at the ends, so that ragged ends do not count and a
 /// lattice gives its true section: 4 sqrt(3) r t for 4 columns of hexagons [m^2].

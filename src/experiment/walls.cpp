@@ -2,11 +2,15 @@
 #include "experiment/walls.h"
 
 #include "contact/manifold.h"
+#include "experiment/specimen.h"
 #include "generate/assemble.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <numeric>
+#include <stdexcept>
 #include <vector>
 
 namespace grainfrac {
@@ -104,19 +108,76 @@ int add_cylinder(Model& model, State& state, int wall, const Vec3& axis, double 
     return add_wall_round(model, state, wall, group_of_wall(model, wall), axis, length, center, radius);
 }
 
-void add_wall(Model& model, State& state, const WallSpec& spec)
+void add_box(Model& model, State& state, int wall, const Vec3& center, const Vec3& inside, double thickness,
+             const std::vector<std::string>& open)
+{
+    for (int e = 0; e < 3; ++e) {
+        const int f = e == 0 ? 1 : 0, g = 3 - e - f;  // as for a plate of the input
+        for (const int side : {1, -1}) {
+            const std::string name = std::string(side > 0 ? "+" : "-") + "xyz"[e];
+            if (std::find(open.begin(), open.end(), name) != open.end()) continue;
+            const Vec3 inwards = -static_cast<double>(side) * axis_vector(e);
+            // corners: each plate reaches past its neighbours
+            add_plate(model, state, wall, center - 0.5 * inside[e] * inwards, inwards, axis_vector(f),
+                      inside[f] + 2.0 * thickness, inside[g] + 2.0 * thickness, thickness);
+        }
+    }
+}
+
+void add_mesh(Model& model, State& state, int wall, const TriangleMesh& mesh, double unit, const Vec3& origin)
+{
+    for (std::vector<Vec3> polygon : convex_facets(mesh, max_face_vertices)) {
+        for (Vec3& x : polygon) x = unit * x + origin;
+        const Vec3 center = polygon_centroid(polygon);
+        for (Vec3& x : polygon) x -= center;
+        std::vector<int> front(polygon.size());
+        std::iota(front.begin(), front.end(), 0);
+        const std::vector<int> back(front.rbegin(), front.rend());
+        add_wall_plate(model, state, wall, group_of_wall(model, wall), make_polyhedron(polygon, {front, back}), center,
+                       0.0);
+    }
+}
+
+namespace {
+
+void add_mesh(Model& model, State& state, int wall, const WallSpec& spec, const std::string& key,
+              const std::string& input_file)
+{
+    const std::string file = std::filesystem::path(input_file).parent_path() / spec.file;
+    TriangleMesh mesh;
+    try {
+        mesh = read_stl(file);
+    } catch (const std::runtime_error& e) {
+        throw InputError(key + ".file", e.what());
+    }
+    if (const std::string why = why_not_closed(mesh); spec.closed && !why.empty()) {
+        throw InputError(key + ".file", "the surface is not closed: " + why +
+                                            "; mend it, or set closed = false where an open surface is meant");
+    }
+    add_mesh(model, state, wall, mesh, spec.file_unit, spec.center);
+}
+
+}  // namespace
+
+void add_wall(Model& model, State& state, const WallSpec& spec, const std::string& key, const std::string& input_file)
 {
     const int wall = add_wall(model, spec.name);
+    const double thickness = spec.thickness > 0.0 || spec.size.empty()
+                                 ? spec.thickness
+                                 : 0.1 * *std::max_element(spec.size.begin(), spec.size.end());
     if (spec.shape == "plate") {
-        const double thickness = spec.thickness > 0.0 ? spec.thickness : 0.1 * std::max(spec.size[0], spec.size[1]);
         add_plate(model, state, wall, spec.center, spec.normal,
                   std::fabs(normalized(spec.normal).x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, spec.size[0],
                   spec.size[1], thickness);
-        return;
+    } else if (spec.shape == "box") {
+        add_box(model, state, wall, spec.center, {spec.size[0], spec.size[1], spec.size[2]}, thickness, spec.open);
+    } else if (spec.shape == "stl") {
+        add_mesh(model, state, wall, spec, key, input_file);
+    } else {
+        const double length = spec.shape == "cylinder" ? spec.length : 0.0;
+        add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center,
+                       spec.radius);
     }
-    const double length = spec.shape == "cylinder" ? spec.length : 0.0;
-    add_wall_round(model, state, wall, group_of_wall(model, wall), normalized(spec.axis), length, spec.center,
-                   spec.radius);
 }
 
 }  // namespace grainfrac

@@ -2,7 +2,6 @@
 #include "generate/assemble.h"
 
 #include "generate/crystal.h"
-#include "geometry/shared_faces.h"
 #include "model/random.h"
 
 #include <algorithm>
@@ -248,18 +247,25 @@ int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& 
     std::vector<Polyhedron> shapes;
     shapes.reserve(grains.size());
     for (const GrainSpec& g : grains) shapes.push_back(g.shape);
-    const std::vector<SharedFace> faces = find_shared_faces(shapes);
+    const auto distance = [&](const SharedFace& face) {
+        const Vec3 between =
+            grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site;
+        return std::fabs(dot(between, face.normal));
+    };
+    return bond_faces(model, state, find_shared_faces(shapes), distance, seed, rule_of);
+}
 
+int bond_faces(Model& model, State& state, const std::vector<SharedFace>& faces,
+               const std::function<double(const SharedFace&)>& distance, std::int64_t seed,
+               const std::function<const BondRule*(int, int)>& rule_of)
+{
     std::vector<BondFace> bonds;
     std::map<const BondRule*, std::pair<double, int>> areas;  // sum and number
     for (const SharedFace& face : faces) {
         const BondRule* rule = rule_of(face.a, face.b);
         if (rule == nullptr) continue;
         BondFace f{&face, rule, polygon_moments(face.polygon)};
-        const double h =
-            std::fabs(dot(grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site,
-                          face.normal));
-        f.normal_stiffness = rule->normal_stiffness.value_or(rule->modulus / h);
+        f.normal_stiffness = rule->normal_stiffness.value_or(rule->modulus / distance(face));
         areas[rule].first += f.moments.area;
         areas[rule].second += 1;
         bonds.push_back(f);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/quadrature.h"
+#include "geometry/shared_faces.h"
 #include "model/grain_body.h"
 #include "model/model.h"
 #include "model/state.h"
@@ -58,6 +59,12 @@ struct BondRule {
 /// @return number of bonds made
 int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& grains, std::int64_t seed,
                       const std::function<const BondRule*(int, int)>& rule_of);
+
+/// The same for faces between bodies where they are now, sorted by pair. `distance`: of the two sites across a face
+/// [m].
+int bond_faces(Model& model, State& state, const std::vector<SharedFace>& faces,
+               const std::function<double(const SharedFace&)>& distance, std::int64_t seed,
+               const std::function<const BondRule*(int, int)>& rule_of);
 
 /// Weibull factor of one face: (A_0/A)^(1/m) (-ln U)^(1/m), clipped to [0.2, 3] of its mean.
 double weibull_factor(double u, double modulus, double area, double reference_area);

@@ -2,6 +2,7 @@
 #include "generate/microstructure.h"
 
 #include "generate/hexagonal_prisms.h"
+#include "geometry/cut.h"
 #include "model/random.h"
 
 #include <fmt/format.h>
@@ -111,6 +112,11 @@ std::vector<GrainSpec> prism_grains(const PartSpec& part, const std::string& key
         cells = hexagonal_prism_lattice(prism_spec(part));
     } catch (const std::invalid_argument& e) {
         throw InputError(key + ".region", e.what());
+    }
+    for (LatticeCell& cell : cells) {
+        if (part.gap == 0.0) break;
+        cell.shape = erode(cell.shape, 0.5 * part.gap);
+        if (cell.shape.faces.empty()) throw InputError(key + ".gap", "nothing is left of a grain; lower it");
     }
     double inradius = 0.0;
     for (const LatticeCell& cell : cells)

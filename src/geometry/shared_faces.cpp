@@ -183,7 +183,7 @@ std::vector<SharedFace> find_shared_faces(const std::vector<Polyhedron>& polyhed
     std::vector<SharedFace> shared;
     const Scales scales = mean_scales(polyhedra);
     if (!(scales.size > 0.0)) return shared;
-    const double near = options.plane_tolerance * scales.size;
+    const double near = std::max(options.plane_tolerance * scales.size, options.plane_distance);
     for (const auto& [ia, ib] : close_pairs(polyhedra, near, scales.size)) {
         const Polyhedron &a = polyhedra[static_cast<std::size_t>(ia)], &b = polyhedra[static_cast<std::size_t>(ib)];
         for (std::size_t fa = 0; fa < a.faces.size(); ++fa)

@@ -16,6 +16,7 @@ struct SharedFace {
 struct SharedFaceOptions {
     double normal_tolerance = 1e-9;  ///< n_a . n_b < -1 + this [-]
     double plane_tolerance = 1e-9;   ///< distance of the planes over the mean size of the polyhedra [-]
+    double plane_distance = 0.0;     ///< or this distance, if it is more [m]
     double area_tolerance = 1e-6;    ///< least overlap over the mean face area [-]
 };
 

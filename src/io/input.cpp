@@ -276,10 +276,13 @@ private:
         if (!is_array_of(value, path, 3, expected(member, facts))) return;
         for (int i = 0; i < 3; ++i) get_element(value, path, static_cast<std::size_t>(i), member[i], facts);
     }
-    void get(const Node& value, const std::string& path, std::array<double, 2>& member, const Facts& facts)
+    void get(const Node& value, const std::string& path, std::optional<Vec3>& member, const Facts& facts)
     {
-        if (!is_array_of(value, path, 2, expected(member, facts))) return;
-        for (std::size_t i = 0; i < 2; ++i) get_element(value, path, i, member[i], facts);
+        member.reset();
+        Vec3 vector;
+        if (is_auto(value) || !is_array_of(value, path, 3, expected(member, facts))) return;
+        for (int i = 0; i < 3; ++i) get_element(value, path, static_cast<std::size_t>(i), vector[i], facts);
+        member = vector;
     }
     void get(const Node& value, const std::string& path, std::vector<double>& member, const Facts& facts)
     {

@@ -11,6 +11,8 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
+#include <type_traits>
 
 namespace grainfrac {
 namespace {
@@ -32,7 +34,7 @@ public:
         pairs("contacts", c_.contacts);
         for (std::size_t i = 0; i < c_.bonds.size(); ++i) bond(c_.bonds[i], joined("bonds", i));
         for (std::size_t i = 0; i < c_.walls.size(); ++i) wall(c_.walls[i], joined("walls", i));
-        for (std::size_t i = 0; i < c_.stages.size(); ++i) stage(c_.stages[i], joined("stages", i));
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) stage(c_.stages[i], i);
         if (right("test.kind")) {
             if (c_.test.kind == "custom")
                 custom();
@@ -131,6 +133,7 @@ private:
             if (!given(key) || !right(key)) continue;
             if (!is_name(c_.stages[i].name)) fail(key, "the name of a stage must consist of letters, digits, _ and -");
             if (!stages.insert(c_.stages[i].name).second) fail(key, "a stage of this name exists already");
+            if (c_.stages[i].kind == "bond") bond_stages_.push_back(c_.stages[i].name);
         }
         for (const auto& [name, what] : owner_) pair_names_.push_back(name);
         for (const std::string& name : walls_of_test()) pair_names_.push_back(name);
@@ -173,7 +176,7 @@ private:
     template <class Spec>
     void pairs(const std::string& table, const std::vector<Spec>& entries)
     {
-        std::map<std::pair<std::string, std::string>, std::string> seen;
+        std::map<std::tuple<std::string, std::string, std::string>, std::string> seen;
         for (std::size_t i = 0; i < entries.size(); ++i) {
             const std::string path = joined(table, i), key = path + ".between";
             if (!right(key)) continue;
@@ -184,7 +187,9 @@ private:
                 fail(joined(key, k), "no part, material or wall of this name; " + choice(name, pair_names_));
             }
             auto pair = std::minmax(entries[i].between[0], entries[i].between[1]);
-            const auto [entry, is_new] = seen.try_emplace({pair.first, pair.second}, path);
+            std::string made_in;
+            if constexpr (std::is_same_v<Spec, BondSpec>) made_in = entries[i].made_in;
+            const auto [entry, is_new] = seen.try_emplace({pair.first, pair.second, made_in}, path);
             if (!is_new) fail(key, fmt::format("{} is for the same pair", entry->second));
         }
     }
@@ -192,6 +197,10 @@ private:
     void bond(const BondSpec& b, const std::string& path)
     {
         elasticity(b, path);
+        if (given(path + ".made_in") && right(path + ".made_in") && right("stages") &&
+            std::find(bond_stages_.begin(), bond_stages_.end(), b.made_in) == bond_stages_.end()) {
+            fail(path + ".made_in", "no stage of kind = \"bond\" has this name; " + choice(b.made_in, bond_stages_));
+        }
         if (b.failure == "unbreakable" || !right(path + ".failure")) return;
         if (b.failure == "face" && right(path + ".law") && right(path + ".softening")) {
             if (b.law != "interface")
@@ -246,29 +255,112 @@ private:
 
     void wall(const WallSpec& w, const std::string& path)
     {
+        if (!right(path + ".shape")) return;
         if (w.shape == "plate" && norm2(w.normal) == 0.0 && right(path + ".normal"))
             fail(path + ".normal", "must not be zero");
         if (w.shape == "cylinder" && norm2(w.axis) == 0.0 && right(path + ".axis"))
             fail(path + ".axis", "must not be zero");
+        const std::size_t lengths = w.shape == "box" ? 3 : 2;
+        if ((w.shape == "box" || w.shape == "plate") && given(path + ".size") && right(path + ".size") &&
+            w.size.size() != lengths) {
+            fail(path + ".size", fmt::format("has {} entries; a {} must have {} such as [{}\"1 m\", \"1 m\"]",
+                                             w.size.size(), w.shape, lengths, lengths == 3 ? "\"1 m\", " : ""));
+        }
+        const std::set<std::string> open(w.open.begin(), w.open.end());
+        if (right(path + ".open") && open.size() != w.open.size()) fail(path + ".open", "names a side twice");
+        if (right(path + ".open") && open.size() == 6) fail(path + ".open", "no side of the box is left");
+        if (w.shape == "stl" && given(path + ".file") && right(path + ".file") && w.file.empty())
+            fail(path + ".file", "must not be empty");
+        servo(w.servo, path, w.shape == "plate");
+        if (given(path + ".servo") && c_.test.kind != "custom" && right("test.kind")) {
+            fail(path + ".servo",
+                 fmt::format("a {} test drives its own walls; use test.kind = \"custom\"", c_.test.kind));
+        }
     }
 
-    void stage(const StageSpec& s, const std::string& path)
+    /// Of a wall or of a stage's move: one target, a direction, no velocity besides.
+    void servo(const ServoSpec& s, const std::string& owner, bool has_normal)
     {
+        const std::string path = owner + ".servo";
+        if (!given(path) || !right(path)) return;
+        if (s.force.has_value() == s.stress.has_value()) {
+            fail(path, fmt::format("has {} of force, stress; must have exactly one: the push that the wall holds",
+                                   s.force ? "both" : "none"));
+        }
+        if (given(path + ".direction") && norm2(s.direction) == 0.0) {
+            fail(path + ".direction", "must not be zero");
+        } else if (!given(path + ".direction") && !has_normal) {
+            fail(path, "direction is missing; required for a wall that is no plate: where it pushes");
+        }
+        if (given(owner + ".velocity")) fail(owner + ".velocity", "give either velocity or servo, not both");
+    }
+
+    const WallSpec* wall_named(const std::string& name) const
+    {
+        for (const WallSpec& w : c_.walls) {
+            if (w.name == name) return &w;
+        }
+        return nullptr;
+    }
+
+    /// Whether a wall moves in the stage: one that it names, or one with a motion of its own.
+    bool moves_a_wall(const StageSpec& s) const
+    {
+        const auto named = [&](const WallSpec& w) {
+            return std::any_of(s.motions.begin(), s.motions.end(),
+                               [&](const StageMotion& m) { return m.wall == w.name; });
+        };
+        return std::any_of(s.motions.begin(), s.motions.end(), [](const StageMotion& m) { return m.moves(); }) ||
+               std::any_of(c_.walls.begin(), c_.walls.end(), [&](const WallSpec& w) {
+                   return (norm2(w.velocity) > 0.0 || w.servo.given()) && !named(w);
+               });
+    }
+
+    void stage(const StageSpec& s, std::size_t i)
+    {
+        const std::string path = joined("stages", i);
+        if (s.kind == "bond" && right(path) &&
+            std::none_of(c_.bonds.begin(), c_.bonds.end(), [&](const BondSpec& b) { return b.made_in == s.name; })) {
+            fail(path, fmt::format("makes no bonds; required: [[bonds]] with made_in = \"{}\"", s.name));
+        }
         std::set<std::string> moved;
-        bool moves = false;
         for (std::size_t k = 0; k < s.motions.size(); ++k) {
-            const std::string key = joined(path + ".move", k) + ".wall";
-            moves = moves || norm2(s.motions[k].velocity) > 0.0;
+            const std::string entry = joined(path + ".move", k), key = entry + ".wall";
+            if (right(entry) && !given(entry + ".velocity") && !given(entry + ".servo"))
+                fail(entry, "must have velocity or servo");
             if (!given(key) || !right(key)) continue;
             const std::string& name = s.motions[k].wall;
-            if (std::find(wall_names_.begin(), wall_names_.end(), name) == wall_names_.end()) {
+            const WallSpec* wall = wall_named(name);
+            if (wall == nullptr) {
                 fail(key, "no such wall; " + choice(name, wall_names_));
-            } else if (!moved.insert(name).second) {
-                fail(key, "this wall is moved already in this stage");
+                continue;
             }
+            if (!moved.insert(name).second) fail(key, "this wall is moved already in this stage");
+            servo(s.motions[k].servo, entry, wall->shape == "plate");
         }
-        if (s.max_displacement && !moves && right(path))
-            fail(path + ".max_displacement", "no wall moves in this stage");
+        if (!right(path)) return;
+        const bool goes_back = s.kind == "unload" && s.motions.empty();
+        if (goes_back) back(i);
+        if (goes_back || moves_a_wall(s)) return;
+        const auto needs_motion = [&](const char* key, const std::optional<double>& value) {
+            if (value) fail(path + key, "no wall moves in this stage");
+        };
+        needs_motion(".max_displacement", s.max_displacement);
+        needs_motion(".load", s.load);
+        needs_motion(".stress", s.stress);
+    }
+
+    /// A stage in which the walls go back by themselves needs one before it in which they went forth.
+    void back(std::size_t i)
+    {
+        const std::string path = joined("stages", i);
+        std::size_t k = i;
+        while (k > 0 && !moves_a_wall(c_.stages[k - 1])) --k;
+        if (k == 0) return fail(path, "no wall moved before; say in move how walls go back");
+        for (const StageMotion& m : c_.stages[k - 1].motions) {
+            if (!m.servo.given()) continue;
+            fail(path, fmt::format("wall \"{}\" held a push before; say in move how it goes back", m.wall));
+        }
     }
 
     void ready_made()
@@ -347,12 +439,13 @@ private:
         }
         for (std::size_t i = 0; i < c_.stages.size(); ++i) {
             const StageSpec& s = c_.stages[i];
-            const bool ends = s.duration || s.unbalanced_force_ratio || s.load_drop || s.max_displacement;
+            const bool ends = s.duration || s.unbalanced_force_ratio || s.rest || s.load || s.stress || s.load_drop ||
+                              s.max_displacement || s.kind == "bond" || s.kind == "unload";
             const bool last = i + 1 == c_.stages.size();
             if (ends || (last && c_.test.stop.time) || !right(joined("stages", i)) || !right("test.stop")) continue;
             fail(joined("stages", i),
-                 fmt::format("never ends; required: at least one of duration, unbalanced_force_ratio, load_drop, "
-                             "max_displacement{}",
+                 fmt::format("never ends; required: at least one of duration, max_displacement, load, stress, "
+                             "load_drop, unbalanced_force_ratio, rest{}",
                              last ? ", or test.stop.time" : ""));
         }
     }
@@ -374,7 +467,7 @@ private:
     std::set<std::string> wrong_;               ///< paths of problems and of the tables around them
     std::map<std::string, std::string> owner_;  ///< names that `between` can hold, and what they name
     bool names_right_ = true;                   ///< else a name that is not there is not worth a message
-    std::vector<std::string> material_names_, wall_names_, pair_names_;
+    std::vector<std::string> material_names_, wall_names_, pair_names_, bond_stages_;
 };
 
 }  // namespace

@@ -90,16 +90,17 @@ std::string expected(const Vec3&, const Facts& facts)
 {
     return fmt::format("an array of 3 such as [{0}, {0}, {0}]", example(facts));
 }
-std::string expected(const std::array<double, 2>&, const Facts& facts)
+std::string expected(const std::optional<Vec3>&, const Facts& facts)
 {
-    return fmt::format("an array of 2 such as [{0}, {0}]", example(facts));
+    return expected(Vec3{}, facts) + " or \"auto\"";
 }
 std::string expected(const std::vector<double>&, const Facts& facts)
 {
     return fmt::format("{0}, or an array such as [{0}, {0}]", example(facts));
 }
-std::string expected(const std::vector<std::string>&, const Facts&)
+std::string expected(const std::vector<std::string>&, const Facts& facts)
 {
+    if (facts.words[0] != '\0') return "an array of texts, each " + expected(std::string(), facts);
     return "an array of texts such as [\"{10-10}\"]";
 }
 std::string expected(const std::array<std::string, 2>&, const Facts&)

@@ -55,10 +55,6 @@ std::string toml_text(const Vec3& v)
 {
     return toml_list(std::array{v.x, v.y, v.z});
 }
-std::string toml_text(const std::array<double, 2>& v)
-{
-    return toml_list(v);
-}
 std::string toml_text(const std::vector<double>& v)
 {
     return toml_list(v);
@@ -169,17 +165,18 @@ std::string kind(const Vec3&, const Facts& f)
 {
     return "3 × " + kind(double{}, f);
 }
-std::string kind(const std::array<double, 2>&, const Facts& f)
+std::string kind(const std::optional<Vec3>&, const Facts& f)
 {
-    return "2 × " + kind(double{}, f);
+    return kind(Vec3{}, f);
 }
 std::string kind(const std::vector<double>&, const Facts& f)
 {
     return kind(double{}, f) + ", or a list";
 }
-std::string kind(const std::vector<std::string>&, const Facts&)
+std::string kind(const std::vector<std::string>& v, const Facts& f)
 {
-    return "list of texts";
+    static_cast<void>(v);
+    return std::string_view(f.words).empty() ? "list of texts" : "list of words";
 }
 std::string kind(const std::array<std::string, 2>&, const Facts&)
 {
@@ -211,7 +208,8 @@ std::string default_text(const std::string& member, const Facts&)
 {
     return member.empty() ? "none" : '`' + toml_text(member) + '`';
 }
-std::string default_text(const std::vector<double>&, const Facts&)
+template <class T>
+std::string default_text(const std::vector<T>&, const Facts&)
 {
     return "none";
 }

@@ -52,6 +52,7 @@ Surface capsule(const Vec3& from, const Vec3& to, double radius)
 /// three of them.
 Vec3 outward_shift(const std::vector<Vec3>& normals, double radius)
 {
+    if (radius == 0.0) return {};
     constexpr double flattest = 1e-9;  // [-] determinant below which the normals do not span space
     Mat3 sum{};
     Vec3 right;

@@ -84,6 +84,7 @@ struct PartSpec {
     std::string lattice = "nominal";        ///< nominal | contained
     std::optional<double> dilation_radius;  ///< [m]; auto: 0.04 of the mean inradius
     double sliver_fraction = 0.05;          ///< [-]
+    double gap = 0.0;                       ///< between neighbours, which are smaller by it [m]
     RegionSpec region;
     std::string at_region_boundary = "keep";  ///< keep | cut
     OrientationSpec orientation;
@@ -118,6 +119,7 @@ struct BondSpec {
     double misorientation_effect = 0.3;          ///< chi [-]
     double moment_contribution = 1.0;            ///< parallel, point: beta [-]
     std::optional<double> bond_radius;           ///< parallel: circle of equal area; point: dilation radius [m]
+    std::string made_in;                         ///< stage of kind "bond" that makes them; "": there from the start
 };
 
 struct ContactSpec {
@@ -130,32 +132,60 @@ struct ContactSpec {
     double restitution = 1.0;                ///< e [-]
 };
 
-struct WallSpec {
-    std::string name;
-    std::string shape = "plate";       ///< plate | cylinder | sphere
-    Vec3 center;                       ///< plate: centre of its loaded face; others: centre [m]
-    Vec3 normal{0, 1, 0};              ///< plate: points to the specimen [-]
-    Vec3 axis{0, 0, 1};                ///< cylinder [-]
-    std::array<double, 2> size{0, 0};  ///< plate: extents along its two in-plane directions [m]
-    double thickness = 0.0;            ///< plate; 0: a tenth of the larger extent [m]
-    double radius = 0.0;               ///< cylinder, sphere [m]
-    double length = 0.0;               ///< cylinder [m]
-    Vec3 velocity;                     ///< [m/s]
-    double ramp = 0.0;                 ///< time over which the speed rises smoothly [s]
+/// A wall that holds a force: it moves along `direction` as fast as the force that is missing asks.
+struct ServoSpec {
+    std::optional<double> force;      ///< wanted push [N]
+    std::optional<double> stress;     ///< or push over `area` [Pa]
+    std::optional<double> area;       ///< [m^2]; auto: section of the box around the grains when the stage begins
+    Vec3 direction;                   ///< of the push; zero: the normal of a plate [-]
+    std::optional<double> max_speed;  ///< [m/s]; auto: the quasi-static speed
+
+    bool given() const { return force || stress; }
 };
 
+struct WallSpec {
+    std::string name;
+    std::string shape = "plate";    ///< plate | box | cylinder | sphere | stl
+    Vec3 center;                    ///< plate: centre of its loaded face; stl: origin of the file; others: centre [m]
+    Vec3 normal{0, 1, 0};           ///< plate: points to the specimen [-]
+    Vec3 axis{0, 0, 1};             ///< cylinder [-]
+    std::vector<double> size;       ///< plate: extents along its two in-plane directions; box: inner lengths [m]
+    std::vector<std::string> open;  ///< box: sides without a plate, "+z"
+    double thickness = 0.0;         ///< plate, box; 0: a tenth of the larger extent [m]
+    double radius = 0.0;            ///< cylinder, sphere [m]
+    double length = 0.0;            ///< cylinder [m]
+    std::string file;               ///< stl: beside the input file
+    double file_unit = 0.0;         ///< stl: length of one unit of the file [m]
+    bool closed = true;             ///< stl: every edge must belong to two triangles
+    Vec3 velocity;                  ///< [m/s]
+    ServoSpec servo;                ///< instead of a velocity
+    double ramp = 0.0;              ///< time over which the speed rises smoothly [s]
+};
+
+/// How a wall moves in a stage: at a velocity, or by a servo.
 struct StageMotion {
     std::string wall;
     Vec3 velocity;  ///< [m/s]
+    ServoSpec servo;
+
+    bool moves() const { return norm2(velocity) > 0.0 || servo.given(); }
 };
 struct StageSpec {
     std::string name;
-    std::vector<StageMotion> motions;              ///< walls that are not named stand still
+    std::string kind = "load";                     ///< settle | compact | bond | load | unload
+    std::vector<StageMotion> motions;              ///< walls that are not named keep their own motion
     double ramp = 0.0;                             ///< [s]
-    std::optional<double> local_damping;           ///< default: control.local_damping [-]
+    std::optional<Vec3> gravity;                   ///< default: control.gravity [m/s^2]
+    std::optional<double> local_damping;           ///< default: control.local_damping, settle: 0.7 [-]
     bool fracture = true;                          ///< bonds may break in this stage
+    bool cleavage = true;                          ///< grains may split in this stage
+    double bond_distance = 0.0;                    ///< bond: largest gap or overlap of two faces [m]
+    double bond_angle = 0.0872664625997165;        ///< bond: largest angle between them; 5 degrees [rad]
     std::optional<double> duration;                ///< [s]
     std::optional<double> unbalanced_force_ratio;  ///< ends below this [-]
+    std::optional<double> rest;                    ///< ends when kinetic energy is below this share of its largest [-]
+    std::optional<double> load;                    ///< ends when the push of the first moving wall reaches this [N]
+    std::optional<double> stress;                  ///< the same over the specimen's section [Pa]
     std::optional<double> load_drop;               ///< ends when the load fell by this share of its peak [-]
     std::optional<double> max_displacement;        ///< of the first moving wall [m]
 };

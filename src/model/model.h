@@ -27,19 +27,33 @@ struct Group {
     bool is_wall = false;
 };
 
-/// A driven body or several that move as one. Speed rises over `ramp` as s^3 (10 - 15 s + 6 s^2) from `from_velocity`.
+/// From 0 to 1 as s^3 (10 - 15 s + 6 s^2) in `ramp` after `start`.
+GF_FN double smooth_rise(double time, double start, double ramp)
+{
+    if (ramp <= 0.0 || time >= start + ramp) return 1.0;
+    const double s = time > start ? (time - start) / ramp : 0.0;
+    return s * s * s * (10.0 + s * (6.0 * s - 15.0));
+}
+
+/// A driven body or several that move as one, at a speed that rises over `ramp`, or by a servo: see motion/servo.h.
 struct WallMotion {
     Vec3 from_velocity;  ///< [m/s]
     Vec3 velocity;       ///< [m/s]
     double start = 0.0;  ///< [s]
     double ramp = 0.0;   ///< [s]
+    // servo, where push_direction is not zero
+    Vec3 push_direction;     ///< unit [-]
+    double from_push = 0.0;  ///< at `start` [N]
+    double push = 0.0;       ///< wanted after the ramp [N]
+    double max_speed = 0.0;  ///< [m/s]
 
     GF_FN Vec3 at(double time) const
     {
-        if (ramp <= 0.0 || time >= start + ramp) return velocity;
-        const double s = time > start ? (time - start) / ramp : 0.0;
-        return from_velocity + s * s * s * (10.0 + s * (6.0 * s - 15.0)) * (velocity - from_velocity);
+        const double rise = smooth_rise(time, start, ramp);
+        return rise < 1.0 ? from_velocity + rise * (velocity - from_velocity) : velocity;
     }
+    GF_FN double push_at(double time) const { return from_push + smooth_rise(time, start, ramp) * (push - from_push); }
+    bool has_servo() const { return norm2(push_direction) > 0.0; }
 };
 
 struct Model {

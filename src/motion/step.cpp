@@ -8,6 +8,7 @@
 #include "fracture/bond_forces.h"
 #include "motion/energy.h"
 #include "motion/integrate.h"
+#include "motion/servo.h"
 
 namespace grainfrac {
 
@@ -27,6 +28,7 @@ void make_room_for_stress(State& state, bool wanted)
 void step(const Model& model, State& state, double dt, bool want_stress)
 {
     move_walls(model, state, state.time + 0.5 * dt);  // driven bodies: the speed of mid step, for both half kicks
+    drive_servos(model, state, dt);                   // walls that hold a push
     kick(model, state, 0.5 * dt);                     // velocities to mid step
     drift(model, state, dt);                          // positions, orientations
     state.time += dt;

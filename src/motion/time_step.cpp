@@ -135,6 +135,9 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         }
         const double k = law.area_stiffness * c.stiffness_scale[i] * area * law.unload_factor;
         for (const int side : {0, 1}) {
+            // a force next to nothing beside a couple has its line of action far away; a whole face has not
+            const double reach = model.shapes.bounding_radius[b.shape[bodies[side]]], length = norm(arm[side]);
+            if (length > reach) arm[side] *= reach / length;
             if (b.inverse_mass[bodies[side]] > 0.0) {
                 s.add(bodies[side], arm[side], normal, k, law.shear_ratio * k,
                       with_wall ? "contact with a wall" : "contact");

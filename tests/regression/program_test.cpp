@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -281,4 +282,148 @@ TEST_CASE("halving the platen speed changes the peak load of the example by less
     CHECK(fast == Approx(slow).epsilon(0.02));
     CHECK(w.summary("fast")["quasi_static"]["kinetic_over_elastic_to_peak"].get<double>() < 1e-2);
     CHECK(w.summary("fast")["energy"]["largest_relative_error"].get<double>() < 1e-3);
+}
+
+namespace {
+
+/// Four grains upon each other, 1 um apart: settled, pressed, bonded, pressed, let go, and pressed again.
+const char* const staged_column = R"([materials.sic]
+density = 3100
+young_modulus = "410 GPa"
+poisson_ratio = 0.17
+[[parts]]
+name = "column"
+material = "sic"
+side = "0.6 mm"
+thickness = "1 mm"
+gap = "1 um"
+region = { shape = "box", size = ["1.1 mm", "1.3 mm", "4 mm"] }
+[[bonds]]
+made_in = "bonds_on"
+failure = "unbreakable"
+[[contacts]]
+normal_stiffness = "4e14 Pa/m"
+restitution = 0.5
+[[walls]]
+name = "top"
+center = [0, 0, "2 mm"]
+normal = [0, 0, -1]
+size = ["3 mm", "3 mm"]
+[[walls]]
+name = "bottom"
+center = [0, 0, "-2 mm"]
+normal = [0, 0, 1]
+size = ["3 mm", "3 mm"]
+[[stages]]
+name = "settle"
+kind = "settle"
+gravity = [0, 0, "-1000 m/s^2"]
+rest = 0.01
+duration = "1 ms"
+[[stages]]
+name = "compact"
+kind = "compact"
+move = [{ wall = "top", servo = { stress = "1 MPa", max_speed = "0.2 m/s" } }]
+local_damping = 0.3
+unbalanced_force_ratio = 0.01
+duration = "1 ms"
+[[stages]]
+name = "bonds_on"
+kind = "bond"
+bond_distance = "0.1 um"
+[[stages]]
+name = "press"
+move = [{ wall = "top", velocity = [0, 0, "-20 mm/s"] }]
+ramp = "10 us"
+stress = "50 MPa"
+[[stages]]
+name = "back"
+kind = "unload"
+ramp = "10 us"
+[[stages]]
+name = "again"
+move = [{ wall = "top", velocity = [0, 0, "-20 mm/s"] }]
+load = "20 N"
+[output]
+history = "0.5 us"
+every = "1 ms"
+)";
+
+}  // namespace
+
+TEST_CASE("a programme of stages: compacted, bonded, pressed to a stress, unloaded to nothing")
+{
+    const Workplace w;
+    std::ofstream(w.folder / "column.toml") << staged_column;
+    const Outcome o = w.run("column.toml --no-report --out a");
+    INFO(o.err << text_of(w.folder / "a/run.log"));
+    REQUIRE(o.code == 0);
+    const std::string log = text_of(w.folder / "a/run.log");
+    for (const char* said : {"stage \"settle\" ended: at rest", "stage \"again\" ended: load 20",
+                             "stage \"compact\" ended: unbalanced force ratio below 0.01", "3 bonds of ", "momentum (",
+                             "stage \"press\" ended: stress ", "stage \"back\" ended: load went back from "}) {
+        INFO(said);
+        CHECK(log.find(said) != std::string::npos);
+    }
+    const nlohmann::json s = w.summary("a");
+    CHECK(s["counts"]["interfaces"] == 3);
+    CHECK(s["fragments"]["number"] == 1);
+    CHECK(s["energy"]["relative_error"].get<double>() < 1e-3);
+    // counted from where the bonded column begins to be pressed: 3 faces of E/h, two contacts of 4e14 Pa/m on the cores
+    const double closing = s["test"]["displacement_at_peak_m"].get<double>(),
+                 force = s["test"]["peak_load_N"].get<double>(), side = 0.6e-3 - 1e-6 / std::sqrt(3.0),
+                 core = side - 2 / std::sqrt(3.0) * 0.04 * 0.4995e-3,
+                 hexagon = 1.5 * std::sqrt(3.0);  // over the squared side
+    const double compliance = 3 * 0.999e-3 / (410e9 * hexagon * side * side) + 2 / (4e14 * hexagon * core * core);
+    CHECK(force * compliance / closing == Approx(1.0).epsilon(0.005));
+    REQUIRE(w.run("a/resolved.toml --no-report --out b -q").code == 0);
+    CHECK(w.summary("b")["state_hash"] == s["state_hash"]);
+}
+
+TEST_CASE("stages that cannot do their work: exit 2 with the reason, and an old result is left alone")
+{
+    const Workplace w;
+    const std::string text = staged_column;
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string t = text;
+        t.replace(t.find(from), from.size(), to);
+        std::ofstream(w.folder / "column.toml") << t;
+    };
+    fs::create_directory(w.folder / "column.out");
+    std::ofstream(w.folder / "column.out/thesis.txt") << "three years of work";
+    const auto refused = [&](const std::string& said) {
+        const Outcome o = w.run("column.toml --force");
+        INFO(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(said) != std::string::npos);
+        CHECK(text_of(w.folder / "column.out/thesis.txt") == "three years of work");
+        CHECK_FALSE(fs::exists(w.folder / "column.out/summary.json"));
+    };
+    changed("made_in = \"bonds_on\"\n", "");
+    refused("stages[2]: makes no bonds; required: [[bonds]] with made_in = \"bonds_on\"");
+    changed("servo = { stress = \"1 MPa\", max_speed", "servo = { max_speed");
+    refused("stages[1].move[0].servo = { max_speed = \"0.2 m/s\" }: has none of force, stress");
+    changed("wall = \"top\", velocity", "wall = \"tpo\", velocity");
+    refused("no such wall; there are \"top\", \"bottom\"; did you mean \"top\"?");
+    changed("name = \"bottom\"\ncenter", "name = \"bottom\"\nshape = \"stl\"\nfile = \"b.stl\"\nfile_unit = 1\ncenter");
+    refused("walls[1].normal");
+    // only the run can find out that nothing lies near enough
+    changed("bond_distance = \"0.1 um\"", "bond_distance = \"1e-15 m\"");
+    const Outcome o = w.run("column.toml --no-report --out far");
+    CHECK(o.code == 2);
+    CHECK(o.err.find("stages[2]: no faces of grains lie against each other within bond_distance") != std::string::npos);
+}
+
+TEST_CASE("the example of staged compression up to its first load", "[slow]")
+{
+    const Workplace w;
+    const Outcome o = w.run("run " + (source / "examples/staged_compression/staged_compression.toml").string() +
+                            " --set stages[3].max_displacement='\"10 um\"' --no-report --out a");
+    INFO(o.err);
+    REQUIRE(o.code == 0);
+    const nlohmann::json s = w.summary("a");
+    CHECK(s["counts"]["interfaces"].get<int>() > 95);
+    CHECK(s["fragments"]["number"] == 1);
+    CHECK(s["energy"]["relative_error"].get<double>() < 1e-3);
+    CHECK(s["test"]["peak_load_N"].get<double>() > 50);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is wrong is said with file, line, key, value as written, and what is allowed.
+#include "experiment/experiment.h"
 #include "input_files.h"
 
 #include <catch2/catch.hpp>
@@ -233,8 +234,8 @@ const Wrong wrong_values[] = {
     {B, "every = \"10 us\"", "snapshots = 5",
      "error: FILE:34: output.snapshots = 5: needs test.stop.time or a stage with a duration; or give every\n"},
     {C, "duration = \"1 ms\"\n", "",
-     "error: FILE:17: stages[0]: never ends; required: at least one of duration, unbalanced_force_ratio, load_drop, "
-     "max_displacement, or test.stop.time\n"},
+     "error: FILE:17: stages[0]: never ends; required: at least one of duration, max_displacement, load, stress, "
+     "load_drop, unbalanced_force_ratio, rest, or test.stop.time\n"},
     {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[test]\nplaten_speed = 1",
      "error: FILE:22: test.platen_speed = 1: has no meaning here; it goes with any kind but \"custom\" and "
      "\"drop\"\n"},
@@ -244,6 +245,163 @@ const Wrong wrong_values[] = {
      "error: FILE:13: walls[0].radius: missing; required with shape = \"cylinder\" or \"sphere\": a quantity > 0 m "
      "such as \"1 m\"\n"},
     {C, "velocity = [0, \"-20 mm/s\", 0]", "velocity = [0, 0, 0]", ""},
+    // cleavage planes and flaws
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{11-10}\"]\ntoughness = 1\nflaw_size = \"30 um\"",
+     "error: FILE:10: materials.sic.cleavage.planes[0] = \"{11-10}\": \"{11-10}\" is no crystal plane: the first three "
+     "indices do not add up to zero; expected Miller-Bravais indices, e.g. \"{10-10}\" or \"(0001)\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10\"]\ntoughness = 1\nflaw_size = \"30 um\"",
+     "error: FILE:10: materials.sic.cleavage.planes[0] = \"{10-10\": \"{10-10\" is no crystal plane: it stands neither "
+     "in {} nor in (); expected Miller-Bravais indices, e.g. \"{10-10}\" or \"(0001)\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0000)\"]\ntoughness = 1\nflaw_size = \"30 um\"",
+     "error: FILE:10: materials.sic.cleavage.planes[0] = \"(0000)\": \"(0000)\" is no crystal plane: all indices are "
+     "zero; expected Miller-Bravais indices, e.g. \"{10-10}\" or \"(0001)\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{12}\"]\ntoughness = 1\nflaw_size = \"30 um\"",
+     "error: FILE:10: materials.sic.cleavage.planes[0] = \"{12}\": \"{12}\" is no crystal plane: it has 2 indices, not "
+     "four; expected Miller-Bravais indices, e.g. \"{10-10}\" or \"(0001)\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 "
+     "um\"\nmode_ratio = 0",
+     "error: FILE:13: materials.sic.cleavage.mode_ratio = 0: must be > 0\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 "
+     "um\"\nfriction = -1",
+     "error: FILE:13: materials.sic.cleavage.friction = -1: must be >= 0\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 "
+     "um\"\nmin_section = 1",
+     "error: FILE:13: materials.sic.cleavage.min_section = 1: must be >= 0 and < 1\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 "
+     "um\"\nflaw = \"round\"",
+     "error: FILE:13: materials.sic.cleavage.flaw = \"round\": must be one of \"through\", \"edge\", \"penny\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 "
+     "um\"\nfracture_energy = 3\nnew_surface = \"free\"",
+     "error: FILE:13: materials.sic.cleavage.fracture_energy = 3: has no meaning here; it goes with new_surface = "
+     "\"cohesive\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = []\ntoughness = 0\nflaw_size = \"-30 um\"",
+     "error: FILE:10: materials.sic.cleavage.planes = []: is empty; must be an array of texts such as [\"{10-10}\"]\n"
+     "error: FILE:11: materials.sic.cleavage.toughness = 0: must be > 0 Pa m^0.5\n"
+     "error: FILE:12: materials.sic.cleavage.flaw_size = \"-30 um\": must be > 0 m\n"},
+    {B, "poisson_ratio = 0.16", "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]",
+     "error: FILE:9: materials.sic.cleavage.toughness: missing; required: a quantity > 0 Pa m^0.5 such as \"1 Pa "
+     "m^0.5\"\n"
+     "error: FILE:9: materials.sic.cleavage.flaw_size: missing; required: a quantity > 0 m such as \"1 m\"\n"},
+    // walls: sizes, sides, files, servos
+    {C, "size = [0.01, 0.01]", "size = [0.01, 0.01, 0.01]",
+     "error: FILE:15: walls[0].size = [0.01, 0.01, 0.01]: has 3 entries; a plate must have 2 such as [\"1 m\", \"1 "
+     "m\"]\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [0.01, 0.01]",
+     "error: FILE:16: walls[0].size = [0.01, 0.01]: has 2 entries; a box must have 3 such as [\"1 m\", \"1 m\", \"1 "
+     "m\"]\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"bxo\"\nsize = [0.01, 0.01]",
+     "error: FILE:15: walls[0].shape = \"bxo\": must be one of \"plate\", \"box\", \"cylinder\", \"sphere\", \"stl\"; "
+     "did you mean \"box\"?\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, 1]\nopen = [\"up\"]",
+     "error: FILE:17: walls[0].open[0] = \"up\": must be one of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\"\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nopen = [\"+z\"]",
+     "error: FILE:16: walls[0].open = [\"+z\"]: has no meaning here; it goes with shape = \"box\"\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, 1]\nopen = [\"+z\", \"+z\"]",
+     "error: FILE:17: walls[0].open = [\"+z\", \"+z\"]: names a side twice\n"},
+    {C, "size = [0.01, 0.01]",
+     "shape = \"box\"\nsize = [1, 1, 1]\nopen = [\"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\"]",
+     "error: FILE:17: walls[0].open = [\"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\"]: no side of the box is left\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, 1]\nopen = \"+z\"",
+     "error: FILE:17: walls[0].open = \"+z\": is a text; must be an array of texts, each one of \"+x\", \"-x\", "
+     "\"+y\", \"-y\", \"+z\", \"-z\"\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [1, 1, -1]",
+     "error: FILE:16: walls[0].size[2] = -1: must be > 0 m\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"stl\"",
+     "error: FILE:13: walls[0].file: missing; required with shape = \"stl\": a text\n"
+     "error: FILE:13: walls[0].file_unit: missing; required with shape = \"stl\": a quantity > 0 m such as \"1 m\"\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"stl\"\nfile = \"\"\nfile_unit = \"1 mm\"",
+     "error: FILE:16: walls[0].file = \"\": must not be empty\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"stl\"\nfile = \"a.stl\"\nfile_unit = \"1 kg\"",
+     "error: FILE:17: walls[0].file_unit = \"1 kg\": is a mass; expected a length, e.g. \"1 m\"\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nfile = \"a.stl\"",
+     "error: FILE:16: walls[0].file = \"a.stl\": has no meaning here; it goes with shape = \"stl\"\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = {}",
+     "error: FILE:16: walls[0].servo = {}: has none of force, stress; must have exactly one: the push that the wall "
+     "holds\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = \"1 N\", stress = \"1 Pa\" }",
+     "error: FILE:16: walls[0].servo = { force = \"1 N\", stress = \"1 Pa\" }: has both of force, stress; must have "
+     "exactly one: the push that the wall holds\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { stress = \"1 N\" }",
+     "error: FILE:16: walls[0].servo.stress = \"1 N\": is a force; expected a stress, e.g. \"1 Pa\"\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = -1 }",
+     "error: FILE:16: walls[0].servo.force = -1: must be > 0 N\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, area = 1 }",
+     "error: FILE:16: walls[0].servo.area = 1: has no meaning here; it goes with stress\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, max_speed = 0 }",
+     "error: FILE:16: walls[0].servo.max_speed = 0: must be > 0 m/s\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, direction = [0, 0, 0] }",
+     "error: FILE:16: walls[0].servo.direction = [0, 0, 0]: must not be zero\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1, target = 2 }",
+     "error: FILE:16: walls[0].servo.target = 2: unknown key; known here: force, stress, area, direction, max_speed\n"},
+    {C, "size = [0.01, 0.01]", "size = [1, 1]\nservo = { force = 1 }\nvelocity = [0, 1, 0]",
+     "error: FILE:17: walls[0].velocity = [0, 1, 0]: give either velocity or servo, not both\n"},
+    {C, "size = [0.01, 0.01]", "shape = \"sphere\"\nradius = 1\nservo = { force = 1 }",
+     "error: FILE:17: walls[0].servo = { force = 1 }: direction is missing; required for a wall that is no plate: "
+     "where it pushes\n"},
+    {U, "[test]", "[[walls]]\nname = \"side\"\nsize = [1, 1]\nservo = { force = 1 }\n[test]",
+     "error: FILE:17: walls[0].servo = { force = 1 }: a uniaxial_compression test drives its own walls; use test.kind "
+     "= \"custom\"\n"},
+    // stages
+    {C, ", velocity = [0, \"-20 mm/s\", 0]", "",
+     "error: FILE:19: stages[0].move[0] = { wall = \"top\" }: must have velocity or servo\n"},
+    {C, ", velocity = [0, \"-20 mm/s\", 0]", ", servo = { stress = \"1 MPa\", force = \"1 N\" }",
+     "error: FILE:19: stages[0].move[0].servo = { stress = \"1 MPa\", force = \"1 N\" }: has both of force, stress; "
+     "must have exactly one: the push that the wall holds\n"},
+    {C, "velocity = [0, \"-20 mm/s\", 0]", "velocity = [0, 1, 0], servo = { stress = \"1 MPa\" }",
+     "error: FILE:19: stages[0].move[0].velocity = [0, 1, 0]: give either velocity or servo, not both\n"},
+    {C, "duration =", "kind = \"lod\"\nduration =",
+     "error: FILE:20: stages[0].kind = \"lod\": must be one of \"settle\", \"compact\", \"bond\", \"load\", "
+     "\"unload\"; did you mean \"load\"?\n"},
+    {C, "duration =", "rest = 1.5\nduration =", "error: FILE:20: stages[0].rest = 1.5: must be > 0 and <= 1\n"},
+    {C, "duration =", "gravity = 9.81\nduration =",
+     "error: FILE:20: stages[0].gravity = 9.81: is a number with a fraction; must be an array of 3 such as [\"1 "
+     "m/s^2\", \"1 m/s^2\", \"1 m/s^2\"] or \"auto\"\n"},
+    {C, "duration =", "gravity = [0, 0, \"9.81 m\"]\nduration =",
+     "error: FILE:20: stages[0].gravity[2] = \"9.81 m\": is a length; expected an acceleration, e.g. \"1 m/s^2\"\n"},
+    {C, "duration =", "local_damping = 1\nduration =",
+     "error: FILE:20: stages[0].local_damping = 1: must be >= 0 and < 1\n"},
+    {C, "duration =", "stress = \"-1 MPa\"\nduration =",
+     "error: FILE:20: stages[0].stress = \"-1 MPa\": must be > 0 Pa\n"},
+    {C, "duration =", "bond_distance = \"1 um\"\nduration =",
+     "error: FILE:20: stages[0].bond_distance = \"1 um\": has no meaning here; it goes with kind = \"bond\"\n"},
+    {C, "velocity = [0, \"-20 mm/s\", 0] }]", "velocity = [0, 0, 0] }]\nload = 3\nstress = 4\nmax_displacement = 5",
+     "error: FILE:20: stages[0].load = 3: no wall moves in this stage\n"
+     "error: FILE:21: stages[0].stress = 4: no wall moves in this stage\n"
+     "error: FILE:22: stages[0].max_displacement = 5: no wall moves in this stage\n"},
+    {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"",
+     "error: FILE:21: stages[1].bond_distance: missing; required with kind = \"bond\": a quantity > 0 m such as \"1 "
+     "m\"\n"},
+    {C, "duration = \"1 ms\"",
+     "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"\nbond_distance = \"1 um\"\nduration = 1",
+     "error: FILE:25: stages[1].duration = 1: has no meaning here; it goes with any kind but \"bond\"\n"},
+    {C, "duration = \"1 ms\"",
+     "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"\nbond_distance = 0\nbond_angle = \"40 deg\"",
+     "error: FILE:24: stages[1].bond_distance = 0: must be > 0 m\n"
+     "error: FILE:25: stages[1].bond_angle = \"40 deg\": must be > 0 rad and <= 0.5 rad\n"},
+    {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[[stages]]\nname = \"on\"\nkind = \"bond\"\nbond_distance = 1",
+     "error: FILE:21: stages[1]: makes no bonds; required: [[bonds]] with made_in = \"on\"\n"},
+    {C, "[[stages]]\n", "[[bonds]]\nfailure = \"unbreakable\"\nmade_in = \"pres\"\n[[stages]]\n",
+     "error: FILE:19: bonds[0].made_in = \"pres\": no stage of kind = \"bond\" has this name; there are none\n"},
+    {B, "cohesion =", "made_in = \"later\"\ncohesion =",
+     "error: FILE:20: bonds[0].made_in = \"later\": no stage of kind = \"bond\" has this name; there are none\n"},
+    {C, "move = [{ wall = \"top\", velocity = [0, \"-20 mm/s\", 0] }]\n", "kind = \"unload\"\n",
+     "error: FILE:17: stages[0]: no wall moved before; say in move how walls go back\n"},
+    {C, "velocity = [0, \"-20 mm/s\", 0] }]\nduration = \"1 ms\"",
+     "servo = { force = 1 } }]\nduration = 1\n[[stages]]\nname = \"back\"\nkind = \"unload\"",
+     "error: FILE:21: stages[1]: wall \"top\" held a push before; say in move how it goes back\n"},
+    {C, "duration = \"1 ms\"", "duration = \"1 ms\"\n[[stages]]\nname = \"press\"\nduration = 1",
+     "error: FILE:22: stages[1].name = \"press\": a stage of this name exists already\n"},
+    {C, "thickness =", "gap = \"-1 um\"\nthickness =", "error: FILE:10: parts[0].gap = \"-1 um\": must be >= 0 m\n"},
     // ready-made tests; U, F, D: see above
     {U, "uniaxial_compression", "uniaxial_tension",
      "error: FILE:17: test.wall_friction = 0.1: has no meaning here; it goes with kind = \"uniaxial_compression\" "
@@ -313,6 +471,86 @@ std::string repeated(const char* before, const char* s, int n, const char* behin
     return out += behind;
 }
 
+/// What only building the model can find out.
+struct Unbuildable {
+    std::string base;
+    const char* from;
+    const char* to;
+    const char* report;
+};
+
+const std::string bonded_bar = replaced(custom_input, "[[walls]]", "[[bonds]]\nfailure = \"unbreakable\"\n\n[[walls]]");
+std::string bonded(const std::string& lines)
+{
+    return bonded_bar.substr(0, bonded_bar.find("[[walls]]")) + "[test]\n" + lines;
+}
+const std::string short_span = replaced(replaced(four_point_input, "\"16 mm\"", "\"4 mm\""), "\"8 mm\"", "\"2 mm\"");
+const std::string three_point =
+    replaced(replaced(short_span, "four_point", "three_point"), "inner_span = \"2 mm\"\n", "");
+const std::string notched = replaced(replaced(short_span, "four_point_bending", "notched_beam"),
+                                     "inner_span = \"2 mm\"", "roller_radius = \"0.5 mm\"\nnotch_depth = \"20 mm\"");
+const std::string dcb = bonded("kind = \"dcb\"\nplaten_speed = 1\ncrack_length = \"2 mm\"\nstop = { time = 1 }\n");
+const std::string cleaving =
+    replaced(custom_input, "poisson_ratio = 0.16",
+             "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa "
+             "m^0.5\"\nflaw_size = \"30 um\"");
+
+const Unbuildable unbuildable[] = {
+    {four_point_input, "\"16 mm\"", "\"16 mm\"",
+     "error: FILE:17: test.outer_span = \"16 mm\": must be <= 0.00467654 m, the length of the specimen: the supports "
+     "would stand beside it\n"},
+    {short_span, "inner_span", "roller_radius = \"3 mm\"\ninner_span",
+     "error: FILE:18: test.roller_radius = \"3 mm\": must be < 0.001 m, half of the smaller span, or two rollers "
+     "overlap\n"},
+    {three_point, "outer_span = \"4 mm\"", "outer_span = \"40 mm\"",
+     "error: FILE:17: test.outer_span = \"40 mm\": must be <= 0.00467654 m, the length of the specimen: the supports "
+     "would stand beside it\n"},
+    {notched, "\"20 mm\"", "\"20 mm\"",
+     "error: FILE:19: test.notch_depth = \"20 mm\": must be < 0.0099 m, the height of the beam\n"},
+    {uniaxial_input, "wall_friction = 0.1", "ends = \"gripped\"\ngrip_length = \"6 mm\"",
+     "error: FILE:18: test.grip_length = \"6 mm\": the two grips meet; must be less than half of the specimen's "
+     "length\n"},
+    {uniaxial_input, "wall_friction = 0.1", "ends = \"gripped\"\ngrip_length = \"1 um\"",
+     "error: FILE:18: test.grip_length = \"1 um\": no grain has its centre within this length of the end; raise it\n"},
+    {dcb, "crack_length = \"2 mm\"", "crack_length = \"60 mm\"",
+     "error: FILE:19: test.crack_length = \"60 mm\": must be < 0.00467654 m, the length of the arms\n"},
+    {dcb, "[[bonds]]\nfailure = \"unbreakable\"\n", "",
+     "error: FILE:15: test.kind = \"dcb\": a dcb test needs [[bonds]] of law = \"interface\" between the arms\n"},
+    {cleaving, "\"30 um\"", "\"3 mm\"",
+     "error: FILE:8: materials.sic.cleavage.flaw_size = \"3 mm\": must be < 0.000519615 m: the flaw would be longer "
+     "than the ball that fits in a grain of \"block\" is wide\n"},
+    {cleaving, "\"30 um\"", "\"3 mm\"\nflaw = \"edge\"",
+     "error: FILE:8: materials.sic.cleavage.flaw_size = \"3 mm\": must be < 0.00103923 m: the flaw would be longer "
+     "than the ball that fits in a grain of \"block\" is wide\n"},
+    {custom_input, "thickness =", "gap = \"2 mm\"\nthickness =",
+     "error: FILE:10: parts[0].gap = \"2 mm\": nothing is left of a grain; lower it\n"},
+    {custom_input, "name = \"top\"\nsize = [0.01, 0.01]",
+     "name = \"top\"\nshape = \"stl\"\nfile = \"no_such.stl\"\nfile_unit = 1\nclosed = false",
+     "error: FILE:16: walls[0].file = \"no_such.stl\": \"FOLDER/no_such.stl\" cannot be opened: No such file or "
+     "directory\n"},
+    {custom_input, "size = [0.01, 0.01]", "shape = \"box\"\nsize = [\"5 mm\", \"5 mm\", \"5 mm\"]",
+     "error: FILE:13: walls[0]: grain 4 of \"block\" and wall \"top\" overlap at the start, by 4.58e-05 m or more; "
+     "move them apart\n"},
+};
+
+/// The report of build(), "" if there is none.
+std::string build_problems_of(const std::string& text)
+{
+    const TemporaryFile file(text);
+    std::map<std::string, SourcePlace> places;
+    const Case c = read_case(file.path(), {}, places);
+    try {
+        build(c, Device::cpu);
+        return "";
+    } catch (const InputError& e) {
+        std::string out = render_problems(e.problems, c.places, c.file);
+        const std::string folder = std::filesystem::path(file.path()).parent_path().string();
+        for (std::size_t at; (at = out.find(file.path())) != out.npos;) out.replace(at, file.path().size(), "FILE");
+        for (std::size_t at; (at = out.find(folder)) != out.npos;) out.replace(at, folder.size(), "FOLDER");
+        return out;
+    }
+}
+
 }  // namespace
 
 TEST_CASE("the files that are spoiled are good", "[input]")
@@ -334,6 +572,14 @@ TEST_CASE("wrong values are reported with file, line, key, value and what is all
         } else {
             CHECK(report == expected);
         }
+    }
+}
+
+TEST_CASE("experiments that cannot be built are refused with file, line, key, value and what is allowed", "[input]")
+{
+    for (const Unbuildable& wrong : unbuildable) {
+        INFO(wrong.from << " -> " << wrong.to);
+        CHECK(build_problems_of(replaced(wrong.base, wrong.from, wrong.to)) == wrong.report);
     }
 }
 
