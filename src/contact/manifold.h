@@ -27,6 +27,9 @@ namespace grainfrac {
 
 /// Cores nearer than this share of the summed dilation radii are penetrating: an error state, never extrapolated.
 inline constexpr double core_contact_share = 1e-6;
+/// Penetrations below this share of them are round-off of the distance: V and S of such a sliver do not belong
+/// together, and the force between grains that merely touch would be anything.
+inline constexpr double least_penetration = 1e-12;
 
 /// One body of a pair.
 struct ContactBody {
@@ -383,7 +386,7 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
     ContactPoint c;
     const double radii = a.radius() + b.radius();
     const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position);
-    if (near.distance >= radii) return c;
+    if (near.distance >= radii * (1.0 - least_penetration)) return c;
     if (near.distance <= core_contact_share * radii) {
         c.depth = radii;
         return c;
