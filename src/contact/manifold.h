@@ -28,7 +28,8 @@ namespace grainfrac {
 /// Cores nearer than this share of the summed dilation radii are penetrating: an error state, never extrapolated.
 inline constexpr double core_contact_share = 1e-6;
 /// A penetration below this share of the summed radii is round-off of the distance, no contact yet: volume and area of
-/// such a sliver do not belong together, and force, stiffness and dashpot of grains that merely touch would be anything.
+/// such a sliver do not belong together, and force, stiffness and dashpot of grains that merely touch would be
+/// anything.
 inline constexpr double least_penetration = 1e-10;
 
 /// One body of a pair.

@@ -96,7 +96,7 @@ std::string expected(const std::optional<Vec3>&, const Facts& facts)
 }
 std::string expected(const std::vector<double>&, const Facts& facts)
 {
-    return fmt::format("{0}, or an array such as [{0}, {0}]", example(facts));
+    return expected(double{}, facts) + ", or an array of them";
 }
 std::string expected(const std::vector<std::string>&, const Facts& facts)
 {

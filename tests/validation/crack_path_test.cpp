@@ -24,9 +24,10 @@ Case beam(double ratio)
     CleavageSpec& k = c.materials[0].cleavage;
     k.planes = {"{10-10}"};
     k.slabs = false;
-    k.toughness = std::sqrt(energy * 410e9 / (1 - 0.17 * 0.17));
+    const double toughness = std::sqrt(energy * 410e9 / (1 - 0.17 * 0.17));
+    k.toughness = {toughness};
     k.mode_ratio = 1.0;
-    k.flaw_size = std::pow(k.toughness / strength, 2) / std::numbers::pi;
+    k.flaw_size = std::pow(toughness / strength, 2) / std::numbers::pi;
     k.finite_width = false;
     PartSpec p;
     p.name = "beam";
@@ -55,8 +56,6 @@ double share_through_grains(double ratio)
     Built b = build(beam(ratio), default_device());
     begin(b);
     double dt = stable_step(b);
-    std::vector<SplitRules> rules;
-    for (const CleavageRules& r : b.cleavage) rules.push_back(r.split);
     double through = 0.0, between = 0.0;
     for (int i = 1; through + between < 3e-6 && i < 60000; ++i) {
         const bool look = i % 20 == 0;
@@ -65,7 +64,7 @@ double share_through_grains(double ratio)
         const auto due = splits_due(
             b.state, find_cleavage(b.model, b.state, grain_stress(b.model, b.state), b.cleavage), b.cleavage);
         if (!due.empty()) {
-            split_grains(b.model, b.state, due, rules);
+            split_grains(b.model, b.state, due);
             dt = std::min(dt, stable_step(b));
         }
         through = between = 0.0;

@@ -28,7 +28,7 @@ Case bar()
     c.bonds[0].elasticity = "plane";
     CleavageSpec& k = c.materials[0].cleavage;
     k.planes = {"{10-10}"};
-    k.toughness = 3.5e6;
+    k.toughness = {3.5e6};
     k.flaw_size = 0.3e-3;
     k.friction = 0.85;
     c.contacts[0].friction = 0.0;

@@ -282,7 +282,7 @@ const Wrong wrong_values[] = {
      "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]\ntoughness = 1\nflaw_size = \"30 "
      "um\"\nfracture_energy = 3\nnew_surface = \"free\"",
      "error: FILE:13: materials.sic.cleavage.fracture_energy = 3: has no meaning here; it goes with new_surface = "
-     "\"cohesive\"\n"},
+     "\"cohesive\" or \"pre_cut\"\n"},
     {B, "poisson_ratio = 0.16",
      "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = []\ntoughness = 0\nflaw_size = \"-30 um\"",
      "error: FILE:10: materials.sic.cleavage.planes = []: is empty; must be an array of texts such as [\"{10-10}\"]\n"
@@ -290,7 +290,7 @@ const Wrong wrong_values[] = {
      "error: FILE:12: materials.sic.cleavage.flaw_size = \"-30 um\": must be > 0 m\n"},
     {B, "poisson_ratio = 0.16", "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"(0001)\"]",
      "error: FILE:9: materials.sic.cleavage.toughness: missing; required: a quantity > 0 Pa m^0.5 such as \"1 Pa "
-     "m^0.5\"\n"
+     "m^0.5\", or an array of them\n"
      "error: FILE:9: materials.sic.cleavage.flaw_size: missing; required: a quantity > 0 m such as \"1 m\"\n"},
     // walls: sizes, sides, files, servos
     {C, "size = [0.01, 0.01]", "size = [0.01, 0.01, 0.01]",
