@@ -74,7 +74,7 @@ struct ContactForces {
         const double pressed = std::fmax(0.0, -dot(f, c.normal)), own = l.area_stiffness * c.overlap_force;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
-        match_force(pressed, own, c, h.offset_overlap, h.stiffness_scale);
+        match_force(pressed, own, c, h.offset_overlap, h.stiffness_scale, h.max_overlap);
     }
 
     GF_FN void operator()(int i) const

@@ -66,13 +66,16 @@ GF_FN Vec3 turn_with_contact(const Vec3& f, const Vec3& n_old, const Vec3& n, do
 inline constexpr double most_stiffness_scale = 4.0;
 
 /// Offset and stiffness of a contact that takes over with the force `pressed`, where its law alone would press `own`.
+/// It was loaded to where it is by what it takes over from: hysteresis has nothing to lose on the way there.
 GF_FN void match_force(double pressed, double own, const ContactPoint& c, double& offset_overlap,
-                       double& stiffness_scale)
+                       double& stiffness_scale, double& max_overlap)
 {
+    const double root = std::sqrt(2.0 * c.overlap_energy);
     if (pressed <= own)
-        offset_overlap = (1.0 - pressed / own) * std::sqrt(2.0 * c.overlap_energy);
+        offset_overlap = (1.0 - pressed / own) * root;
     else
         stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
+    max_overlap = std::fmax(0.0, root - offset_overlap);
 }
 
 /// What a spring keeps of its force when its stiffness goes from `before` to `now`, and the energy that is lost.

@@ -68,7 +68,8 @@ std::vector<int> give_contacts(const Model& model, State& state, const std::vect
             c.twist_moment.at(i) = c.max_overlap.at(i) = c.offset_overlap.at(i) = 0.0;
             c.shear_stiffness.at(i) = c.twist_stiffness.at(i) = 0.0;
             c.stiffness_scale.at(i) = 1.0;
-            match_force(std::fmax(0.0, pressed), own, c.point[i], c.offset_overlap.at(i), c.stiffness_scale.at(i));
+            match_force(std::fmax(0.0, pressed), own, c.point[i], c.offset_overlap.at(i), c.stiffness_scale.at(i),
+                        c.max_overlap.at(i));
         }
     }
     // Parts are eroded by smaller radii, and their sharper edges may reach what the grain's did not: no force from

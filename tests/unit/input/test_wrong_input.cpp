@@ -213,8 +213,8 @@ const Wrong wrong_values[] = {
     {B, "side =", "orientation = {}\nside =",
      "error: FILE:13: parts[0].orientation = {}: has none of choices, random, file; must have exactly one\n"},
     {B, "side =", "orientation = { choices = [] }\nside =",
-     "error: FILE:13: parts[0].orientation.choices = []: is empty; must be \"1 rad\", or an array such as [\"1 rad\", "
-     "\"1 rad\"]\n"},
+     "error: FILE:13: parts[0].orientation.choices = []: is empty; must be a quantity such as \"1 rad\", "
+     "or an array of them\n"},
     {B, "platen_speed = \"20 mm/s\"\n", "",
      "error: FILE:28: test.platen_speed: missing; required with any kind but \"custom\" and \"drop\": a quantity > 0 "
      "m/s "
