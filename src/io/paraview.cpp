@@ -156,11 +156,13 @@ void add_grain_identity(vtkFieldData* data, const Model& model, const State& sta
     add_integers(data, "parent", rows, [&](int i) { return bodies.parent[i]; });
     add_integers(data, "generation", rows, [&](int i) { return bodies.generation[i]; });
     const auto cleavage = [&](int i) {
-        return fields.cleavage.empty() ? Cleavage{} : fields.cleavage.at(static_cast<std::size_t>(i)).worst;
+        return fields.cleavage.empty() ? GrainCleavage{} : fields.cleavage.at(static_cast<std::size_t>(i));
     };
-    add_numbers(data, "cleavage", rows, [&](int i) { return cleavage(i).f; });
-    add_numbers(data, "K_I", rows, [&](int i) { return cleavage(i).K_I; });
-    add_numbers(data, "K_II", rows, [&](int i) { return cleavage(i).K_II; });
+    add_numbers(data, "cleavage", rows, [&](int i) { return cleavage(i).worst.f; });
+    add_numbers(data, "K_I", rows, [&](int i) { return cleavage(i).worst.K_I; });
+    add_numbers(data, "K_II", rows, [&](int i) { return cleavage(i).worst.K_II; });
+    add_integers(data, "cleavage_family", rows, [&](int i) { return cleavage(i).family; });
+    add_vectors(data, "cleavage_normal", rows, [&](int i) { return cleavage(i).plane.normal; });
     add_integers(data, "material", rows,
                  [&](int i) { return model.groups.at(static_cast<std::size_t>(bodies.group[i])).material; });
     add_integers(data, "cluster", rows, [&](int i) { return fields.cluster.at(static_cast<std::size_t>(i)); });
