@@ -252,27 +252,33 @@ private:
         const std::vector<GrainCleavage> found = find_cleavage(model_, state_, cleavage_, look);
         plan_looks(state_, look, found, cleavage_, dt_);
         const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
+        record_.phases.looks += seconds_since(before);
+        return !due.empty() && split(due);
+    }
+
+    bool split(const std::vector<SplitRequest>& due)
+    {
+        const auto before = Clock::now();
         std::vector<int> parts;
-        if (!due.empty()) {
-            for (const SplitReport& r : split_grains(model_, state_, due)) {
-                if (r.status == SplitStatus::done) {
-                    parts.insert(parts.end(), {r.body, r.new_body});
-                    ++record_.splits;
-                    record_.split_area += r.area;
-                    record_.split_energy += r.inserted_energy;
-                    spdlog::debug("step {}: grain {} split", state_.step, r.parent_id);
-                } else {
-                    ++record_.refused_splits[to_string(r.status)];
-                    if (r.status == SplitStatus::degenerate) keep_refused_cut(r.body, due);
-                }
+        for (const SplitReport& r : split_grains(model_, state_, due)) {
+            if (r.status == SplitStatus::done) {
+                parts.insert(parts.end(), {r.body, r.new_body});
+                ++record_.splits;
+                record_.split_area += r.area;
+                record_.split_energy += r.inserted_energy;
+                spdlog::debug("step {}: grain {} split", state_.step, r.parent_id);
+            } else {
+                ++record_.refused_splits[to_string(r.status)];
+                if (r.status == SplitStatus::degenerate) keep_refused_cut(r.body, due);
             }
         }
+        if (!parts.empty()) {
+            if (const std::string why = why_not_valid(model_, state_); !why.empty())
+                throw std::logic_error("a split made an impossible state: " + why);
+            shorten_step_if_needed(time_step_bound(model_, state_, parts));
+        }
         record_.phases.splitting += seconds_since(before);
-        if (parts.empty()) return false;
-        if (const std::string why = why_not_valid(model_, state_); !why.empty())
-            throw std::logic_error("a split made an impossible state: " + why);
-        shorten_step_if_needed(time_step_bound(model_, state_, parts));
-        return true;
+        return !parts.empty();
     }
 
     /// The geometry that no clean cut was found for, to be looked into.

@@ -23,7 +23,7 @@ struct Ending {
 
 /// Wall time by phase [s].
 struct PhaseTimes {
-    double build = 0.0, steps = 0.0, output = 0.0, splitting = 0.0;
+    double build = 0.0, steps = 0.0, output = 0.0, looks = 0.0, splitting = 0.0;
 };
 
 /// What the run found out beyond its files.

@@ -238,6 +238,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     j["run_time"] = {{"build_s", record.phases.build},
                      {"steps_s", record.phases.steps},
                      {"output_s", record.phases.output},
+                     {"cleavage_looks_s", record.phases.looks},
                      {"splitting_s", record.phases.splitting},
                      {"steps_per_s", record.phases.steps > 0.0 ? steps / record.phases.steps : 0.0}};
     if (b.state.points.size() > 0 && steps > 0.0) {
