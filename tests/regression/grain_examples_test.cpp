@@ -18,7 +18,8 @@ nlohmann::json summary_of(const std::string& name, const std::string& values)
 {
     std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
     REQUIRE(mkdtemp(folder.data()) != nullptr);
-    const std::string input = std::string(GF_SOURCE_DIR) + "/examples/" + name + "/" + name + ".toml";
+    const std::string file = name.find('/') == name.npos ? name + "/" + name : name;
+    const std::string input = std::string(GF_SOURCE_DIR) + "/examples/" + file + ".toml";
     const std::string command = std::string(GF_PROGRAM) + " run '" + input + "' --out '" + folder +
                                 "/out' -q --no-report --threads 1 " + values + " > /dev/null";
     CAPTURE(command);
@@ -83,4 +84,46 @@ TEST_CASE("example brazilian_cleavage in short: cracks through grains")
     CHECK(number(s, "splits", "number") > 0);
     CHECK(s["cracks"]["transgranular"]["area_m2"].get<double>() > 0);
     CHECK(number(s, "test", "peak_load_N") > 1e4);
+}
+
+TEST_CASE("example four_point_bending in short: the first crack on the tension side, between the inner rollers")
+{
+    const nlohmann::json s = summary_of("four_point_bending", "--set test.platen_speed='\"60 mm/s\"'");
+    const auto first = s["cracks"]["first"]["position_m"];
+    CHECK(std::fabs(first[0].get<double>()) < 4.6e-3);  // half the inner span, and half a grain
+    CHECK(first[1].get<double>() < -1.5e-3);
+    CHECK(number(s, "test", "peak_load_N") == Approx(350.0).epsilon(0.03));
+}
+
+TEST_CASE("example beam_slender in short: first crack below, strength near that of a face")
+{
+    const nlohmann::json s = summary_of("beam_slender",
+                                        "--set test.platen_speed='\"150 mm/s\"' --set "
+                                        "'parts.beam.region.size=[\"40 mm\", \"4.7 mm\", \"1.3 mm\"]' --set "
+                                        "test.outer_span='\"36 mm\"' --set test.inner_span='\"18 mm\"'");
+    CHECK(s["cracks"]["first"]["position_m"][1].get<double>() < -1.5e-3);
+    // five rows, pulled fast: 0.875 of the strength of a face, less what the swing of the beam adds
+    CHECK(number(s, "test", "nominal_strength_Pa") == Approx(87.5e6).epsilon(0.2));
+}
+
+TEST_CASE("example dcb in short: fracture energy of a zigzag")
+{
+    const nlohmann::json s = summary_of("toughness/dcb",
+                                        "--set test.platen_speed='\"150 mm/s\"' --set test.ramp='\"20 us\"' --set "
+                                        "test.stop.strain=0.0042");
+    CHECK(number(s, "test", "mean_fracture_energy_J_per_m2") == Approx(11.55).epsilon(0.05));
+}
+
+TEST_CASE("example notched_beam in short: the crack starts at the notch")
+{
+    const nlohmann::json s = summary_of("toughness/notched_beam",
+                                        "--set parts.beam.side='\"0.18 mm\"' --set test.platen_speed='\"200 mm/s\"' "
+                                        "--set test.ramp='\"6 us\"' --set "
+                                        "'contacts[0].normal_stiffness=\"2e15 Pa/m\"' --set "
+                                        "'bonds[0].fracture_energy_I=\"60 J/m^2\"' --set "
+                                        "'bonds[0].fracture_energy_II=\"60 J/m^2\"'");
+    const auto first = s["cracks"]["first"]["position_m"];
+    CHECK(std::fabs(first[0].get<double>()) < 0.2e-3);
+    CHECK(first[1].get<double>() < 0.0);
+    CHECK(number(s, "test", "fracture_toughness_Pa_sqrt_m") > 3e6);
 }
