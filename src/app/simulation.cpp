@@ -275,7 +275,16 @@ private:
         if (!parts.empty()) {
             if (const std::string why = why_not_valid(model_, state_); !why.empty())
                 throw std::logic_error("a split made an impossible state: " + why);
-            shorten_step_if_needed(time_step_bound(model_, state_, parts));
+            const TimeStepBound bound = time_step_bound(model_, state_, parts);
+            shorten_step_if_needed(bound);
+            if (case_.control.time_step && bound.body >= 0 && dt_ > bound.with_damping) {
+                too_long_ = fmt::format(
+                    "control.time_step = {:.4g} s is above the stability limit {:.4g} s since a grain was split ({}); "
+                    "shorten it, or leave it out",
+                    dt_, bound.with_damping, bound.limiter);
+                record_.critical_step = bound.with_damping;
+                record_.limiter = bound.limiter;
+            }
         }
         record_.phases.splitting += seconds_since(before);
         return !parts.empty();
@@ -357,6 +366,7 @@ private:
 
     std::string why_unstable() const
     {
+        if (!too_long_.empty()) return too_long_;
         if (const int pair = penetrating_pair(model_, state_); pair >= 0) {
             return fmt::format(
                 "the cores of bodies {} and {} penetrate; the contact is too soft or something moves too fast: raise "
@@ -391,8 +401,9 @@ private:
             return fmt::format("displacement {:.4g} m reached", stage_displacement());
         }
         const double load = stage_load(s);
-        if (s.load && load >= *s.load) return fmt::format("load {:.5g} N reached", load);
-        if (s.stress && load >= *s.stress * stage_section_)
+        const auto reached = [&](double wanted) { return s.unloads ? load <= wanted : load >= wanted; };
+        if (s.load && reached(*s.load)) return fmt::format("load {:.5g} N reached", load);
+        if (s.stress && reached(*s.stress * stage_section_))
             return fmt::format("stress {:.5g} Pa reached", load / stage_section_);
         if (s.load_drop && s.unloads && load <= (1.0 - *s.load_drop) * stage_first_load_)
             return fmt::format("load went back from {:.5g} to {:.5g} N", stage_first_load_, load);
@@ -404,7 +415,9 @@ private:
                              (s.servos.empty() || servos_hold(model_, state_));
         if (s.unbalanced_force_ratio && settled && r.unbalanced_force_ratio < *s.unbalanced_force_ratio)
             return fmt::format("unbalanced force ratio below {:.2g}", *s.unbalanced_force_ratio);
-        if (s.rest && settled && r.energy.kinetic < *s.rest * stage_kinetic_ && r.unbalanced_force_ratio < balanced)
+        const bool still = r.energy.kinetic <= energy_floor_;  // nothing moved, or round-off does
+        if (s.rest && settled &&
+            (still || (r.energy.kinetic < *s.rest * stage_kinetic_ && r.unbalanced_force_ratio < balanced)))
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
         if (s.rest_energy && r.energy.kinetic < *s.rest_energy && std::fabs(r.load - s.weight) < balanced * s.weight)
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
@@ -475,6 +488,7 @@ private:
     int stage_body_ = -1;
     Vec3 stage_origin_;
     bool finished_stage_ = false;
+    std::string too_long_;  // why a time step that the user fixed is no longer stable
     std::int64_t broken_ = 0, fragments_ = 0;
     double energy_floor_ = 0.0;  // [J]
     Clock::time_point last_checkpoint_;

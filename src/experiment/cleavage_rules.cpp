@@ -12,6 +12,8 @@ namespace grainfrac {
 
 namespace {
 
+constexpr double default_residual_friction = 0.4;
+
 CleavageLaw cleavage_law(const CleavageSpec& s, const MaterialSpec& m, double toughness)
 {
     CleavageLaw l;
@@ -38,14 +40,14 @@ InterfaceLaw surface_law(const CleavageSpec& s, const CleavageLaw& c)
 {
     InterfaceLaw l{};
     l.tensile_strength = c.threshold_stress();
-    l.friction = l.residual_friction = s.residual_friction;
-    l.cohesion = std::max(s.mode_ratio, s.residual_friction) * l.tensile_strength;
+    l.friction = l.residual_friction = s.residual_friction.value_or(default_residual_friction);
+    l.cohesion = std::max(s.mode_ratio, l.friction) * l.tensile_strength;
     l.onset = OnsetSurface::mohr_coulomb;
     if (s.new_surface == "pre_cut") {
         l.onset = OnsetSurface::quadratic;
         l.cohesion = s.mode_ratio * l.tensile_strength;
         l.friction = s.friction;
-        l.residual_friction = std::min(s.residual_friction, s.friction);  // else damage could release energy
+        l.residual_friction = std::min(l.residual_friction, s.friction);  // else damage could release energy
     }
     l.fracture_energy_I = s.fracture_energy.value_or(c.fracture_energy);
     l.fracture_energy_II = s.fracture_energy_II.value_or(l.fracture_energy_I / (s.mode_ratio * s.mode_ratio));
@@ -80,6 +82,28 @@ SplitRules split_rules(const CleavageSpec& s, const CleavageLaw& c, double grain
     r.least_inradius = s.min_inradius;
     r.most_generations = static_cast<std::int32_t>(s.max_generation);
     return r;
+}
+
+/// Refusals are remembered by plane; a plane that is an interface from the start must not snap back within itself.
+void check_planes(const MaterialSpec& m, const CleavageRules& r, const Model& model)
+{
+    std::size_t count = 0;
+    for (const CleavageFamily& f : r.families) {
+        count += f.planes.size();
+        const InterfaceLaw law = model.interface_laws[f.split.law];
+        const double t = law.tensile_strength, needed = t * t / (2.0 * law.fracture_energy_I);
+        if (m.cleavage.new_surface == "pre_cut" && f.split.normal_stiffness <= needed) {
+            throw InputError(
+                fmt::format("materials.{}.cleavage.normal_stiffness", m.name),
+                fmt::format("must be > {:.4g} Pa/m, sigma_th^2/(2 G_I), with new_surface = \"pre_cut\", or "
+                            "the plane snaps back within itself",
+                            needed));
+        }
+    }
+    if (count > most_candidates) {
+        throw InputError(fmt::format("materials.{}.cleavage.planes", m.name),
+                         fmt::format("name {} planes of a grain; must be {} or fewer", count, most_candidates));
+    }
 }
 
 /// The gate serves the planes that split most easily.
@@ -120,6 +144,7 @@ std::vector<CleavageRules> make_cleavage_rules(const Case& c, const std::vector<
             r.families.push_back({law, cleavage_planes(parse_crystal_planes(s.planes[k]), side),
                                   split_rules(s, law, m.young_modulus / spacing[g], model)});
         }
+        check_planes(m, r, model);
         r.gate = gate_of(s, cleavage_law(s, m, *std::min_element(s.toughness.begin(), s.toughness.end())));
         r.surface_flaws = s.flaw_site == "surface";
         r.pause = spacing[g] / std::sqrt(m.young_modulus / m.density);

@@ -124,6 +124,18 @@ bool face_passes(const State& state, int body, const CleavageGate& gate)
     return false;
 }
 
+/// Brings what the threads read to the host before they start: the first to ask would copy it from the device.
+void on_the_host(const State& state)
+{
+    const Bodies& b = state.bodies;
+    const Slots& s = state.slots;
+    for (const Buffer<Vec3>* v :
+         {&b.position, &b.velocity, &b.angular_velocity, &b.force, &b.torque, &s.force, &s.torque_a, &s.torque_b})
+        v->host();
+    b.orientation.host();
+    state.contacts.point.host();
+}
+
 bool passes(const State& state, int body, const Mat3& stress, const CleavageGate& gate)
 {
     return gate(stress) || face_passes(state, body, gate);
@@ -193,6 +205,7 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
         }
     };
     const Work work{model, state, rules, bodies, found};
+    on_the_host(state);
     const int n = static_cast<int>(bodies.size());
     if (threads() == 1 || n < least_for_threads) {
         work(0, n);

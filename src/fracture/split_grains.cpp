@@ -81,6 +81,9 @@ void make_bodies(Model& model, State& state, Parting& p, const CutResult& cut)
     become_part(model, state, parent, p, cut.inside, density);
     b.split_time.at(fresh) = b.split_time.at(parent) = state.time;
     b.saturated.at(fresh) = b.saturated.at(parent) = 0;  // other shapes, other limits
+    b.cleavage_factor.at(fresh) = b.cleavage_factor.at(parent) = 0.0;
+    b.last_look.at(fresh) = b.last_look.at(parent) = state.step;
+    b.next_look.at(fresh) = b.next_look.at(parent) = state.step + 1;
     b.generation.at(parent) = b.generation[fresh];
     b.parent.at(parent) = b.parent[fresh];
     b.id.at(parent) = next_id + 1;

@@ -7,7 +7,6 @@
 #include "model/model.h"
 #include "model/state.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -56,12 +55,12 @@ struct SplitReport {
     double inserted_energy = 0.0;  ///< W_ins: what the new surface holds without work done [J]
 };
 
-/// Planes of a grain that refusals can be told apart of; those beyond share the last.
+/// Planes of a grain that refusals can be told apart of.
 inline constexpr int most_candidates = 63;
 /// The bit of Bodies::saturated for a candidate plane.
 inline std::int64_t candidate_bit(int candidate)
 {
-    return std::int64_t{1} << std::min(candidate, most_candidates - 1);
+    return std::int64_t{1} << candidate;
 }
 
 /// Whether a grain (sharp, dilated by `radius`) may be parted by this cut; `done` if so. `whole_volume`: of the grain

@@ -7,6 +7,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
+#include <CGAL/exceptions.h>
 
 #include <algorithm>
 #include <limits>
@@ -156,7 +157,9 @@ bool volumes_add_up(const Polyhedron& whole, const Polyhedron& a, const Polyhedr
 
 }  // namespace
 
-CutResult cut_exact(const Polyhedron& p, const Plane& plane, int tag)
+namespace {
+
+CutResult cut_with_cgal(const Polyhedron& p, const Plane& plane, int tag)
 {
     CutResult result;
     const double size = bounding_size(p), tolerance = on_plane_distance(p);
@@ -190,6 +193,17 @@ CutResult cut_exact(const Polyhedron& p, const Plane& plane, int tag)
         result.inside = result.outside = {};
     }
     return result;
+}
+
+}  // namespace
+
+CutResult cut_exact(const Polyhedron& p, const Plane& plane, int tag)
+{
+    try {
+        return cut_with_cgal(p, plane, tag);
+    } catch (const CGAL::Failure_exception&) {  // a precondition of the hull that round-off broke: no clean cut
+        return {};
+    }
 }
 
 }  // namespace grainfrac

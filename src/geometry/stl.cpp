@@ -186,7 +186,11 @@ private:
 
 TriangleMesh read_stl(const std::string& file)
 {
-    if (std::filesystem::is_directory(file)) throw std::runtime_error("\"" + file + "\" is a directory");
+    std::error_code unknown;
+    const auto kind = std::filesystem::status(file, unknown);
+    if (std::filesystem::is_directory(kind)) throw std::runtime_error("\"" + file + "\" is a directory");
+    if (std::filesystem::exists(kind) && !std::filesystem::is_regular_file(kind))
+        throw std::runtime_error("\"" + file + "\" is no ordinary file");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::runtime_error("\"" + file + "\" cannot be opened: " + std::strerror(errno));
     std::vector<RawPoint> points;
@@ -204,11 +208,17 @@ TriangleMesh read_stl(const std::string& file)
     const double size = size_of(raw);
     if (!(size > 0.0)) throw std::runtime_error("\"" + file + "\" has no extent");
     const std::vector<int> index = welded(raw, weld_tolerance * size, mesh.vertices);
+    bool flat = true;  // every triangle is a line
     for (const auto& t : triangles) {
         const std::array<int, 3> c{index[t[0]], index[t[1]], index[t[2]]};
-        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) mesh.triangles.push_back(c);
+        if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+        const Vec3 &a = mesh.vertices[static_cast<std::size_t>(c[0])],
+                   u = mesh.vertices[static_cast<std::size_t>(c[1])] - a,
+                   v = mesh.vertices[static_cast<std::size_t>(c[2])] - a;
+        flat = flat && norm(cross(u, v)) <= weld_tolerance * size * std::max(norm(u), norm(v));
+        mesh.triangles.push_back(c);
     }
-    if (mesh.triangles.empty()) throw std::runtime_error("\"" + file + "\" has no triangle with an area");
+    if (mesh.triangles.empty() || flat) throw std::runtime_error("\"" + file + "\" has no triangle with an area");
     return mesh;
 }
 

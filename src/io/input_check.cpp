@@ -112,7 +112,20 @@ private:
                     fail(fmt::format("{}.cleavage.planes[{}]", joined("materials", m.name), k), e.what());
                 }
             }
-            const std::string toughness = joined("materials", m.name) + ".cleavage.toughness";
+            const std::string cleavage = joined("materials", m.name) + ".cleavage.", toughness = cleavage + "toughness";
+            for (std::size_t k = 0; k < m.cleavage.planes.size(); ++k) {
+                const auto first = std::find(m.cleavage.planes.begin(), m.cleavage.planes.end(), m.cleavage.planes[k]);
+                if (first - m.cleavage.planes.begin() < static_cast<std::ptrdiff_t>(k))
+                    fail(fmt::format("{}planes[{}]", cleavage, k), "is listed already");
+            }
+            const std::optional<double> residual = m.cleavage.residual_friction;
+            if (m.cleavage.new_surface == "pre_cut" && residual && *residual > m.cleavage.friction &&
+                right(cleavage + "residual_friction") && right(cleavage + "friction")) {
+                fail(cleavage + "residual_friction",
+                     fmt::format("must be <= friction, {}, with new_surface = \"pre_cut\": broken planes would create "
+                                 "energy",
+                                 m.cleavage.friction));
+            }
             const std::size_t count = m.cleavage.toughness.size(), families = m.cleavage.planes.size();
             if (families > 0 && count > 1 && count != families && right(toughness)) {
                 fail(toughness,
@@ -357,6 +370,10 @@ private:
         std::size_t k = i;
         while (k > 0 && !moves_a_wall(c_.stages[k - 1])) --k;
         if (k == 0) return fail(path, "no wall moved before; say in move how walls go back");
+        for (const WallSpec& w : c_.walls) {
+            if (w.servo.given())
+                fail(path, fmt::format("wall \"{}\" holds a push; say in move how it goes back", w.name));
+        }
         for (const StageMotion& m : c_.stages[k - 1].motions) {
             if (!m.servo.given()) continue;
             fail(path, fmt::format("wall \"{}\" held a push before; say in move how it goes back", m.wall));

@@ -137,7 +137,10 @@ void describe(V& v, CleavageSpec& s)
     v("fracture_energy_II", s.fracture_energy_II,
       {.unit = "J/m^2", .range = positive, .used = cohesive, .unset = "G_I/C^2", .meaning = "G_II of the new surface"});
     v("residual_friction", s.residual_friction,
-      {.range = not_negative, .used = cohesive, .meaning = "of the broken surface while it is an interface"});
+      {.range = not_negative,
+       .used = cohesive,
+       .unset = "0.4; with `pre_cut` the smaller of that and `friction`",
+       .meaning = "of the broken surface while it is an interface"});
     v("normal_stiffness", s.normal_stiffness,
       {.unit = "Pa/m",
        .range = positive,
@@ -148,7 +151,8 @@ void describe(V& v, CleavageSpec& s)
     v("damping", s.damping,
       {.range = not_negative, .used = cohesive, .meaning = "of the new surface, share of critical"});
     v("min_fragment_volume", s.min_fragment_volume,
-      {.range = share_below_1, .meaning = "smallest part, over the volume of the grain at the start"});
+      {.range = {.least = 0.0, .most = 0.5, .below = true},
+       .meaning = "smallest part, over the volume of the grain at the start"});
     v("min_section", s.min_section,
       {.range = share_below_1, .meaning = "smallest section, over the surface of what is split"});
     v("min_inradius", s.min_inradius,

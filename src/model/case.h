@@ -37,7 +37,7 @@ struct CleavageSpec {
     std::string new_surface = "cohesive";      ///< cohesive | free | pre_cut
     std::optional<double> fracture_energy;     ///< G_I of the new surface [J/m^2]; auto: K_c^2 (1 - nu^2)/E
     std::optional<double> fracture_energy_II;  ///< [J/m^2]; auto: G_I/C^2
-    double residual_friction = 0.4;            ///< [-]
+    std::optional<double> residual_friction;   ///< [-]; auto: 0.4, pre_cut: not above `friction`
     std::optional<double> normal_stiffness;    ///< of the new surface [Pa/m]; auto: see cleavage_rules.cpp
     double damping = 0.05;                     ///< [-]
     double min_fragment_volume = 0.02;         ///< of the grain at the start [-]

@@ -197,12 +197,14 @@ void limit_for_loose_bodies(const Model& model, const State& state, const std::v
 {
     const Bodies& b = state.bodies;
     std::vector<char> bonded(static_cast<std::size_t>(b.size()), 0);
-    const auto mark = [&](const auto& bonds) {
-        for (int i = 0; i < bonds.size(); ++i)
+    const auto mark = [&](const auto& bonds, const auto& gone) {
+        for (int i = 0; i < bonds.size(); ++i) {
+            if (gone[i] != 0) continue;
             bonded[static_cast<std::size_t>(bonds.a[i])] = bonded[static_cast<std::size_t>(bonds.b[i])] = 1;
+        }
     };
-    mark(state.interfaces);
-    mark(state.parallels);
+    mark(state.interfaces, state.interfaces.retired);
+    mark(state.parallels, state.parallels.cause);
     double stiffest = 0.0;
     for (const LinearContact& law : model.contact_laws.host())
         stiffest = std::fmax(stiffest, law.area_stiffness * law.unload_factor);
