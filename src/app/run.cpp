@@ -49,7 +49,7 @@ void warn_about_loading(const Built& b, const RunRecord& record)
                      test.speed_of_each_wall, test.quasi_static_speed);
     }
     const Ledger e = energy_ledger(b.model, b.state);
-    const double scale = std::max({std::fabs(e.external), e.kinetic, e.initial});
+    const double scale = std::max({std::fabs(e.external), std::fabs(e.gravity), e.kinetic, e.initial});
     const double by_contacts = e.inserted - record.split_energy - record.bonding_energy;
     if (std::fabs(by_contacts) > 1e-3 * scale) {
         spdlog::warn(
