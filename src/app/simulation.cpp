@@ -130,7 +130,7 @@ private:
                 shorten_step_if_needed(time_step_bound(model_, state_));
             const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
             const bool cleave = !cleavage_.empty() && stage.cleavage;
-            const bool ask_gate = cleave && state_.step + 1 >= state_.next_look;
+            const bool ask_gate = cleave && gate_is_due(state_);
             const auto before = Clock::now();
             step(model_, state_, dt_, snapshot || ask_gate);
             record_.phases.steps += seconds_since(before);
@@ -247,11 +247,10 @@ private:
     bool split_where_due(bool ask_gate)
     {
         const auto before = Clock::now();
-        std::vector<int> look = due_for_a_look(state_, cleavage_);
-        if (ask_gate) look = ask_the_gate(state_, grain_stress(model_, state_), cleavage_, look, dt_);
-        const std::vector<GrainCleavage> found = find_cleavage(model_, state_, cleavage_, look);
-        plan_looks(state_, look, found, cleavage_, dt_);
-        const std::vector<SplitRequest> due = splits_due(state_, found, cleavage_);
+        std::vector<Mat3> stress;
+        if (ask_gate) stress = grain_stress(model_, state_);
+        const std::vector<SplitRequest> due =
+            look_for_splits(model_, state_, ask_gate ? &stress : nullptr, cleavage_, dt_);
         record_.phases.looks += seconds_since(before);
         return !due.empty() && split(due);
     }

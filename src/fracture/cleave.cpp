@@ -231,6 +231,9 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
     return found;
 }
 
+namespace {
+
+/// Grains that are to be looked at now, by their own plan.
 std::vector<int> due_for_a_look(const State& state, const std::vector<CleavageRules>& rules)
 {
     std::vector<int> due;
@@ -239,8 +242,6 @@ std::vector<int> due_for_a_look(const State& state, const std::vector<CleavageRu
     }
     return due;
 }
-
-namespace {
 
 /// Steps between two looks that ask the gate.
 std::int64_t interval(const std::vector<CleavageRules>& rules, double dt)
@@ -252,8 +253,7 @@ std::int64_t interval(const std::vector<CleavageRules>& rules, double dt)
     return std::max<std::int64_t>(least_steps, std::llround(transits * transit / dt));
 }
 
-}  // namespace
-
+/// Those of `bodies` that the gate lets pass; the others are asked again when the gate is next.
 std::vector<int> ask_the_gate(State& state, const std::vector<Mat3>& stress, const std::vector<CleavageRules>& rules,
                               const std::vector<int>& bodies, double dt)
 {
@@ -272,6 +272,7 @@ std::vector<int> ask_the_gate(State& state, const std::vector<Mat3>& stress, con
     return passing;
 }
 
+/// Plans the next look at each of `bodies`, of which `found` is.
 void plan_looks(State& state, const std::vector<int>& bodies, const std::vector<GrainCleavage>& found,
                 const std::vector<CleavageRules>& rules, double dt)
 {
@@ -293,6 +294,8 @@ void plan_looks(State& state, const std::vector<int>& bodies, const std::vector<
     }
 }
 
+}  // namespace
+
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,
                                      const std::vector<CleavageRules>& rules)
 {
@@ -305,6 +308,21 @@ std::vector<SplitRequest> splits_due(const State& state, const std::vector<Grain
         due.push_back(c.due);
     }
     return due;
+}
+
+bool gate_is_due(const State& state)
+{
+    return state.step + 1 >= state.next_look;
+}
+
+std::vector<SplitRequest> look_for_splits(const Model& model, State& state, const std::vector<Mat3>* stress,
+                                          const std::vector<CleavageRules>& rules, double dt)
+{
+    std::vector<int> look = due_for_a_look(state, rules);
+    if (stress != nullptr) look = ask_the_gate(state, *stress, rules, look, dt);
+    const std::vector<GrainCleavage> found = find_cleavage(model, state, rules, look);
+    plan_looks(state, look, found, rules, dt);
+    return splits_due(state, found, rules);
 }
 
 }  // namespace grainfrac

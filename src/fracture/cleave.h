@@ -45,18 +45,17 @@ std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
 std::vector<GrainCleavage> find_cleavage(const Model& model, const State& state,
                                          const std::vector<CleavageRules>& rules, const std::vector<int>& bodies);
 
-/// Grains that are to be looked at now, by their own plan.
-std::vector<int> due_for_a_look(const State& state, const std::vector<CleavageRules>& rules);
+/// Whether the gate is to be asked after the coming step, which then has to gather stresses.
+bool gate_is_due(const State& state);
 
-/// Sets the step of the next look that asks the gate: the time that a wave takes through a grain from now. Of `bodies`,
-/// returns those that the gate lets pass; the others are asked again then.
-std::vector<int> ask_the_gate(State& state, const std::vector<Mat3>& stress, const std::vector<CleavageRules>& rules,
-                              const std::vector<int>& bodies, double dt);
-
-/// Plans the next look at each grain that was looked at: when it might get half way to f = 1 at the rate at which its f
-/// grew since the last look, and the sooner the nearer it is. `found`: of `bodies`.
-void plan_looks(State& state, const std::vector<int>& bodies, const std::vector<GrainCleavage>& found,
-                const std::vector<CleavageRules>& rules, double dt);
+/// Looks at the grains whose time has come, plans their next looks, and returns the splits that are due. `stress`: of
+/// each body if the gate is due, else nullptr.
+///
+/// The gate is asked every 20 steps, or the time that a wave takes through a grain if that is more. A grain that passes
+/// is looked at again when it might get half way to f = 1 at the rate at which its f grew since the last look, and the
+/// sooner the nearer it is.
+std::vector<SplitRequest> look_for_splits(const Model& model, State& state, const std::vector<Mat3>* stress,
+                                          const std::vector<CleavageRules>& rules, double dt);
 
 /// Requests for those that reach f >= 1 and may split now, in the order of `found`.
 std::vector<SplitRequest> splits_due(const State& state, const std::vector<GrainCleavage>& found,

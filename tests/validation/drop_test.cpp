@@ -166,7 +166,7 @@ TEST_CASE("drop: grains that break keep mass and momentum at every split, and co
     c.test.drop_height = 2e-3;
     c.test.side_gap = 0.1e-3;
     Built b = build(c, default_device());
-    Fall f(b, 0.5);
+    Fall f(b, 0.8);
     const Momentum start = total_momentum(b.model, b.state);
     const double weight = start.mass * g, speed = std::sqrt(2 * g * c.test.drop_height), size = 1e-3;
     int splits = 0;
@@ -193,7 +193,7 @@ TEST_CASE("drop: grains that break keep mass and momentum at every split, and co
         CHECK(energy_ledger(b.model, b.state).kinetic == Approx(kinetic).epsilon(1e-12));
         REQUIRE(why_not_valid(b.model, b.state).empty());
         f.load = measure(b.experiment, b.model, b.state).load;
-        f.dt = std::min(f.dt, stable_step(b, 0.5));
+        f.dt = std::min(f.dt, stable_step(b, 0.8));
     }
     const Ledger e = energy_ledger(b.model, b.state);
     CAPTURE(e.relative_error(), e.inserted / e.gravity, b.state.bodies.size(), b.state.step);

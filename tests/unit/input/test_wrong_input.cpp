@@ -292,6 +292,16 @@ const Wrong wrong_values[] = {
      "error: FILE:9: materials.sic.cleavage.toughness: missing; required: a quantity > 0 Pa m^0.5 such as \"1 Pa "
      "m^0.5\", or an array of them\n"
      "error: FILE:9: materials.sic.cleavage.flaw_size: missing; required: a quantity > 0 m such as \"1 m\"\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\", \"{10-10}\"]\ntoughness = \"2 MPa "
+     "m^0.5\"\nflaw_size = \"30 um\"\nmin_fragment_volume = 0.5",
+     "error: FILE:10: materials.sic.cleavage.planes[1] = \"{10-10}\": is listed already\n"
+     "error: FILE:13: materials.sic.cleavage.min_fragment_volume = 0.5: must be >= 0 and < 0.5\n"},
+    {B, "poisson_ratio = 0.16",
+     "poisson_ratio = 0.16\n[materials.sic.cleavage]\nplanes = [\"{10-10}\"]\ntoughness = \"2 MPa m^0.5\"\nflaw_size = "
+     "\"30 um\"\nnew_surface = \"pre_cut\"\nresidual_friction = 0.4",
+     "error: FILE:14: materials.sic.cleavage.residual_friction = 0.4: must be <= friction, 0.3, with new_surface = "
+     "\"pre_cut\": broken planes would create energy\n"},
     // walls: sizes, sides, files, servos
     {C, "size = [0.01, 0.01]", "size = [0.01, 0.01, 0.01]",
      "error: FILE:15: walls[0].size = [0.01, 0.01, 0.01]: has 3 entries; a plate must have 2 such as [\"1 m\", \"1 "
