@@ -69,6 +69,7 @@ Experiment set_up_drop(const Case& c, Model& model, State& state)
     Experiment e;
     e.kind = c.test.kind;
     e.quasi_static = false;
+    model.resolve_impacts = true;
     e.results = results;
     const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
     e.wave_speed = std::sqrt(m.young_modulus / m.density);

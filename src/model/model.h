@@ -69,9 +69,10 @@ struct Model {
     std::vector<std::int32_t> contact_law_of;  ///< group x group -> contact law, row by row
     Vec3 gravity;                              ///< [m/s^2]
     double local_damping = 0.0;                ///< alpha [-]
-    bool fracture_active = true;               ///< bonds may break in this stage
-    double skin = 0.0;                         ///< of the neighbour list [m]
-    double nominal_length = 0.0;               ///< mean grain spacing, for scales and tolerances [m]
+    bool resolve_impacts = false;  ///< the time step resolves rebounds of fragments too, not of loose grains only
+    bool fracture_active = true;   ///< bonds may break in this stage
+    double skin = 0.0;             ///< of the neighbour list [m]
+    double nominal_length = 0.0;   ///< mean grain spacing, for scales and tolerances [m]
     Device device = Device::cpu;
 };
 
