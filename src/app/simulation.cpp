@@ -42,7 +42,7 @@ constexpr double logged_change = 0.01;
 constexpr double most_energy_error = 0.1;
 /// A residual below this share of E V (as m c_0^2) is round-off, whatever the other terms are: strains of 1e-9.
 constexpr double negligible_energy = 1e-18;
-/// The floor bears the weight within this share of it: not so at the top of a bounce, nor at its lowest point.
+/// At rest the floor bears the weight within this share of it.
 constexpr double balanced = 0.1;
 /// Kinetic over elastic energy counts from this share of the peak load: at the very start both are nothing.
 constexpr double monitored_load = 0.1;
@@ -326,6 +326,7 @@ private:
         count_broken(r);
         r.cracks = crack_sums(state_);
         r.split_grains = record_.splits;
+        watch_rest(stage, r);
         folder_.append_history(r);
         record_.rows.push_back(r);
         if (m.load > record_.peak_load) {
@@ -418,11 +419,24 @@ private:
         if (s.rest && settled &&
             (still || (r.energy.kinetic < *s.rest * stage_kinetic_ && r.unbalanced_force_ratio < balanced)))
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
-        if (s.rest_energy && r.energy.kinetic < *s.rest_energy && std::fabs(r.load - s.weight) < balanced * s.weight)
+        const double lasted = state_.time - rest_start_;
+        if (s.rest_energy && lasted >= s.rest_time &&
+            std::fabs(rest_impulse_ - s.weight * lasted) < balanced * s.weight * lasted)
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
         if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time)
             return "stop.time reached";
         return {};
+    }
+    /// How long the kinetic energy has been low, and the impulse of the floor since then.
+    void watch_rest(const Stage& s, const HistoryRow& r)
+    {
+        if (!s.rest_energy || record_.rows.empty() || r.energy.kinetic >= *s.rest_energy) {
+            rest_start_ = r.time;
+            rest_impulse_ = 0.0;
+            return;
+        }
+        const HistoryRow& before = record_.rows.back();
+        rest_impulse_ += 0.5 * (before.load + r.load) * (r.time - before.time);
     }
     /// A load drop counts only once something failed: waves make the load of a platen dip at first touch.
     bool broken_or_damaged() const { return broken_ > 0; }
@@ -487,7 +501,8 @@ private:
     int stage_body_ = -1;
     Vec3 stage_origin_;
     bool finished_stage_ = false;
-    std::string too_long_;  // why a time step that the user fixed is no longer stable
+    double rest_start_ = 0.0, rest_impulse_ = 0.0;  // [s], [N s]
+    std::string too_long_;                          // why a time step that the user fixed is no longer stable
     std::int64_t broken_ = 0, fragments_ = 0;
     double energy_floor_ = 0.0;  // [J]
     Clock::time_point last_checkpoint_;

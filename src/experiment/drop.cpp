@@ -19,6 +19,8 @@ constexpr double floor_overhang = 4.0;
 constexpr double side_overhang = 1.0;
 /// Thickness of floor and walls over the specimen's height: nothing may pass through them between two steps.
 constexpr double wall_thickness = 0.5;
+/// Rest has to last for this share of the time of fall: a heap at the top of a bounce hardly moves either.
+constexpr double rest_falls = 0.25;
 /// Guess of a run's length over the time of fall.
 constexpr double expected_falls = 4.0;
 
@@ -102,6 +104,7 @@ Experiment set_up_drop(const Case& c, Model& model, State& state)
     stage.duration = c.test.stop.time;
     if (c.test.stop.rest) stage.rest_energy = *c.test.stop.rest * weight * (h > 0.0 ? h : height);
     stage.weight = weight;
+    stage.rest_time = rest_falls * (fall > 0.0 ? fall : std::sqrt(2.0 * height / g));
     e.stages = {stage};
     e.expected_duration = stage.duration.value_or(expected_falls * (fall > 0.0 ? fall : std::sqrt(2.0 * height / g)));
     return e;

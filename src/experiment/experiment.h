@@ -52,7 +52,8 @@ struct Stage {
     std::optional<double> unbalanced_force_ratio;  ///< [-]
     std::optional<double> rest;                    ///< kinetic energy over its largest in the stage [-]
     std::optional<double> rest_energy;  ///< at rest: kinetic energy below this, the load that of the weight [J]
-    double weight = 0.0;                ///< for rest_energy [N]
+    double weight = 0.0;                ///< for rest_energy: the floor bears it, in the mean over rest_time [N]
+    double rest_time = 0.0;             ///< for rest_energy: how long it has to stay below it [s]
 };
 
 /// What the measures refer to.

@@ -607,8 +607,8 @@ void describe(V& v, StopSpec& s)
     v("rest", s.rest,
       {.range = positive,
        .unset = "not looked at",
-       .meaning = "test `drop`: when the kinetic energy is below this share of the weight times `drop_height`, and the "
-                  "floor bears the weight"});
+       .meaning = "test `drop`: when the kinetic energy has been below this share of the weight times `drop_height` "
+                  "for a quarter of the time of fall, in which the floor bore the weight"});
 }
 
 template <class V>
