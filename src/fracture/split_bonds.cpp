@@ -51,8 +51,11 @@ public:
     {
         const InterfaceBonds& f = state_.interfaces;
         std::vector<Piece> pieces;
+        std::vector<char> concerned(static_cast<std::size_t>(state_.bodies.size()), 0);
+        for (const Parting& p : partings) concerned[static_cast<std::size_t>(p.request.body)] = 1;
         for (int i = 0; i < f.size(); ++i) {
-            if (before_.count(f.a[i]) + before_.count(f.b[i]) > 0) pieces.push_back(whole(i));
+            if (concerned[static_cast<std::size_t>(f.a[i])] + concerned[static_cast<std::size_t>(f.b[i])] > 0)
+                pieces.push_back(whole(i));
         }
         for (const Parting& p : partings) {
             std::vector<Piece> next;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace grainfrac {
@@ -38,8 +37,8 @@ std::vector<int> give_contacts(const Model& model, State& state, const std::vect
         }
         return list;
     };
-    std::map<std::pair<int, int>, int> index;
-    for (int i = 0; i < c.size(); ++i) index[{c.a[i], c.b[i]}] = i;
+    std::vector<std::pair<int, int>> pairs;  // sorted, as the list is
+    for (int i = 0; i < c.size(); ++i) pairs.emplace_back(c.a[i], c.b[i]);
     std::vector<int> given;
     for (const OldContact& o : old) {
         struct Heir {
@@ -51,9 +50,11 @@ std::vector<int> give_contacts(const Model& model, State& state, const std::vect
         double sum = 0.0;
         for (const int a : parts(o.a)) {
             for (const int b : parts(o.b)) {
-                const auto found = index.find(std::minmax(a, b));
-                if (found == index.end() || c.point[found->second].overlap_energy <= 0.0) continue;
-                const int i = found->second;
+                const std::pair<int, int> pair = std::minmax(a, b);
+                const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
+                if (found == pairs.end() || *found != pair) continue;
+                const int i = static_cast<int>(found - pairs.begin());
+                if (c.point[i].overlap_energy <= 0.0) continue;
                 const double own = model.contact_laws[c.law[i]].area_stiffness * c.point[i].overlap_force;
                 heirs.push_back({i, own, a > b});
                 sum += own;
