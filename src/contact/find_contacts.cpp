@@ -11,14 +11,12 @@ namespace {
 
 /// True while a bond of the pair still acts: bonds carry compression too, so the pair must not press twice.
 struct Suppression {
-    View<const std::int32_t> bond_slot, bond_count, interface_retired, parallel_cause;
+    View<const std::int32_t> bond_slot, bond_count, bond_acts;
 
     GF_FN bool operator()(int pair) const
     {
         for (int s = bond_slot[pair]; s < bond_slot[pair] + bond_count[pair]; ++s) {
-            const bool gone = s < interface_retired.size ? interface_retired[s] != 0
-                                                         : parallel_cause[s - interface_retired.size] != 0;
-            if (!gone) return true;
+            if (bond_acts[s] != 0) return true;
         }
         return false;
     }
@@ -61,8 +59,7 @@ FindContacts kernel(const Model& model, State& state, Device d)
 {
     Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
-    const Suppression suppressed{c.bond_slot.read(d), c.bond_count.read(d), state.interfaces.retired.read(d),
-                                 state.parallels.cause.read(d)};
+    const Suppression suppressed{c.bond_slot.read(d), c.bond_count.read(d), state.slots.bond_acts.read(d)};
     return {view(model.shapes, d), b.position.read(d), b.orientation.read(d), b.shape.read(d), c.a.read(d),
             c.b.read(d),           suppressed,         c.point.write(d)};
 }

@@ -2,30 +2,17 @@
 #include "contact/find_pairs.h"
 
 #include "contact/gather.h"
+#include "geometry/near_boxes.h"
 #include "gpu/parallel.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace grainfrac {
 
 namespace {
-
-/// A body this many times wider than the median is no cell-list member: it is tested against all boxes (platens).
-constexpr double large_body = 4.0;
-
-struct Box {
-    Vec3 low, high;
-};
-
-bool overlap(const Box& a, const Box& b)
-{
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-           a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
 
 std::vector<Box> body_boxes(const Model& model, const State& state)
 {
@@ -50,64 +37,6 @@ std::vector<Box> body_boxes(const Model& model, const State& state)
     return boxes;
 }
 
-double width(const Box& b)
-{
-    return std::max({b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z});
-}
-
-/// Overlapping boxes by a hashed grid; large ones against all. Result sorted.
-std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes)
-{
-    const int n = static_cast<int>(boxes.size());
-    std::vector<std::pair<int, int>> pairs;
-    if (n < 2) return pairs;
-    std::vector<double> widths;
-    for (const Box& b : boxes) widths.push_back(width(b));
-    std::vector<double> sorted = widths;
-    std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
-    const double limit = large_body * sorted[static_cast<std::size_t>(n / 2)];
-    Vec3 cell;  // as wide as the widest along each axis: columns of grains are long along one only
-    for (int i = 0; i < n; ++i) {
-        const Box& b = boxes[static_cast<std::size_t>(i)];
-        for (int k = 0; k < 3 && widths[static_cast<std::size_t>(i)] <= limit; ++k)
-            cell[k] = std::max(cell[k], b.high[k] - b.low[k]);
-    }
-    const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
-        return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^
-               static_cast<std::uint64_t>(z * 83492791LL);
-    };
-    const auto cell_of = [&](const Vec3& x, int k) { return static_cast<std::int64_t>(std::floor(x[k] / cell[k])); };
-    std::unordered_map<std::uint64_t, std::vector<int>> grid;
-    for (int i = 0; i < n; ++i) {
-        const Box& b = boxes[static_cast<std::size_t>(i)];
-        if (widths[static_cast<std::size_t>(i)] > limit) {
-            for (int j = 0; j < n; ++j) {
-                const bool other_large = widths[static_cast<std::size_t>(j)] > limit;
-                if (j != i && (!other_large || i < j) && overlap(b, boxes[static_cast<std::size_t>(j)]))
-                    pairs.emplace_back(std::minmax(i, j));
-            }
-            continue;
-        }
-        const Vec3 c = 0.5 * (b.low + b.high);
-        const std::int64_t x = cell_of(c, 0), y = cell_of(c, 1), z = cell_of(c, 2);
-        for (std::int64_t dx = -1; dx <= 1; ++dx) {
-            for (std::int64_t dy = -1; dy <= 1; ++dy) {
-                for (std::int64_t dz = -1; dz <= 1; ++dz) {
-                    const auto found = grid.find(key(x + dx, y + dy, z + dz));
-                    if (found == grid.end()) continue;
-                    for (const int j : found->second) {
-                        if (overlap(b, boxes[static_cast<std::size_t>(j)])) pairs.emplace_back(std::minmax(i, j));
-                    }
-                }
-            }
-        }
-        grid[key(x, y, z)].push_back(i);
-    }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());  // two cells may share a hash
-    return pairs;
-}
-
 /// First slot and number of the bonds of each bonded pair, sorted by pair.
 struct BondedPair {
     std::pair<int, int> bodies;
@@ -116,7 +45,7 @@ struct BondedPair {
 std::vector<BondedPair> bonded_pairs(const State& state)
 {
     std::vector<BondedPair> found;
-    const auto add = [&](const auto& bonds, std::int32_t first) {
+    state.for_each_bond_kind([&](const auto& bonds, std::int32_t first) {
         for (int i = 0; i < bonds.size(); ++i) {
             const std::pair<int, int> bodies{bonds.a[i], bonds.b[i]};
             if (!found.empty() && found.back().bodies == bodies)
@@ -124,9 +53,7 @@ std::vector<BondedPair> bonded_pairs(const State& state)
             else
                 found.push_back({bodies, first + i, 1});
         }
-    };
-    add(state.interfaces, 0);
-    add(state.parallels, state.interfaces.size());
+    });
     std::sort(found.begin(), found.end(), [](const BondedPair& x, const BondedPair& y) { return x.bodies < y.bodies; });
     return found;
 }

@@ -70,8 +70,9 @@ void build_incidence(State& state)
     std::vector<std::int32_t> begin(static_cast<std::size_t>(bodies) + 1, 0);
     const auto for_each_slot = [&](auto&& visit) {
         std::int32_t slot = 0;
-        for (int i = 0; i < state.interfaces.size(); ++i) visit(slot++, state.interfaces.a[i], state.interfaces.b[i]);
-        for (int i = 0; i < state.parallels.size(); ++i) visit(slot++, state.parallels.a[i], state.parallels.b[i]);
+        state.for_each_bond_kind([&](const auto& bonds, int) {
+            for (int i = 0; i < bonds.size(); ++i) visit(slot++, bonds.a[i], bonds.b[i]);
+        });
         for (int i = 0; i < state.contacts.size(); ++i) visit(slot++, state.contacts.a[i], state.contacts.b[i]);
     };
     for_each_slot([&](std::int32_t, std::int32_t a, std::int32_t b) {
@@ -88,6 +89,10 @@ void build_incidence(State& state)
     state.incidence.begin.host() = std::move(begin);
     state.incidence.entry.host() = std::move(entry);
     state.slots.resize(state.bond_slots() + state.contacts.size());
+    state.slots.bond_acts.resize(state.bond_slots());
+    state.for_each_bond_kind([&](const auto& bonds, int first) {
+        for (int i = 0; i < bonds.size(); ++i) state.slots.bond_acts.at(first + i) = is_gone(bonds, i) ? 0 : 1;
+    });
 }
 
 }  // namespace grainfrac

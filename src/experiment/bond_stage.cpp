@@ -33,14 +33,11 @@ std::vector<Polyhedron> placed_grains(const Model& model, const Bodies& b)
 std::set<Pair> pairs_with_bonds(const State& state)
 {
     std::set<Pair> pairs;
-    const InterfaceBonds& f = state.interfaces;
-    for (int i = 0; i < f.size(); ++i) {
-        if (f.retired[i] == 0) pairs.insert({f.a[i], f.b[i]});
-    }
-    const ParallelBonds& p = state.parallels;
-    for (int i = 0; i < p.size(); ++i) {
-        if (p.cause[i] == 0) pairs.insert({p.a[i], p.b[i]});
-    }
+    state.for_each_bond_kind([&](const auto& bonds, int) {
+        for (int i = 0; i < bonds.size(); ++i) {
+            if (!is_gone(bonds, i)) pairs.insert({bonds.a[i], bonds.b[i]});
+        }
+    });
     return pairs;
 }
 
@@ -115,7 +112,9 @@ void add_bonds(State& state, State& fresh)
     state.interfaces.corner_begin.host() = std::move(corner_begin);
     state.points = merged(state.points, fresh.points, points);
     state.corners = merged(state.corners, fresh.corners, corners);
-    state.parallels = merged(state.parallels, fresh.parallels, order_by_pair(state.parallels, fresh.parallels));
+    const auto add = [](auto& old, auto& made) { old = merged(old, made, order_by_pair(old, made)); };
+    add(state.parallels, fresh.parallels);
+    add(state.sphere_bonds, fresh.sphere_bonds);
 }
 
 /// Everything stands still, and contacts forget; what they held is booked as taken out.

@@ -44,6 +44,7 @@ InterfaceLaw interface_law(const BondSpec& s)
     l.cohesion = s.cohesion;
     l.friction = s.friction;
     l.residual_friction = s.residual_friction.value_or(s.friction);
+    l.residual_shear = 0.0;
     l.fracture_energy_I = s.fracture_energy_I;
     l.fracture_energy_II = s.fracture_energy_II;
     l.mixed_mode_exponent = s.mixed_mode_exponent;

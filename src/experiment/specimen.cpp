@@ -17,8 +17,13 @@ constexpr double ramp_passages = 10.0;
 /// Nominal strain at failure over sigma_t/E, for the guess of a run's length: compliance of contacts included.
 constexpr double expected_strains = 8.0;
 
+/// Of a grain its corners; of a sphere those of the box around it; of a wall none.
 std::vector<Vec3> placed_vertices(const Model& model, const Bodies& b, int i)
 {
+    if (is_sphere(model, b, i)) {
+        const double r = model.shapes.radius[b.shape[i]];
+        return {b.position[i] - Vec3{r, r, r}, b.position[i] + Vec3{r, r, r}};
+    }
     std::vector<Vec3> v = model.grain_shapes[static_cast<std::size_t>(i)].vertices;
     for (Vec3& x : v) x = b.position[i] + rotate(b.orientation[i], x);
     return v;

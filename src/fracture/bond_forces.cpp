@@ -23,11 +23,11 @@ struct InterfaceForces {
     SlotsView slot;
     View<const InterfaceLaw> laws;
     double dt, time;
-    bool fracture_active;
+    bool fracture_active, dashpots_active;
 
     View<const std::int32_t> a, b, law, point_begin, corner_begin;
     View<const Vec3> normal_a, normal_b, tangent_a, tangent_b;
-    View<const double> area, diameter, normal_stiffness, shear_stiffness, normal_damping, shear_damping;
+    View<const double> area, slip_limit, pressure, normal_stiffness, shear_stiffness, normal_damping, shear_damping;
     View<const double> strength_factor, toughness_factor, opening_limit;
     View<const Vec3> point_a, point_b, corner_a, corner_b;
     View<const double> weight;
@@ -87,7 +87,7 @@ struct InterfaceForces {
         const bool may_fail = fracture_active && l.failure != FailureUnit::unbreakable;
         const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
         const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
-        const double c_n = normal_damping[i], c_s = shear_damping[i];
+        const double c_n = dashpots_active ? normal_damping[i] : 0.0, c_s = shear_damping[i];
         const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
         const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
 
@@ -115,7 +115,7 @@ struct InterfaceForces {
             const double rate_n = dot(rate, f.n);
             const InterfaceJump before{d_n - dt * rate_n, d_1 - dt * dot(rate, f.t1), d_2 - dt * dot(rate, f.t2)};
             const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i],
-                                          may_fail && !by_face, fail_now, p);
+                                          may_fail && !by_face, fail_now, p, fracture_active, pressure[i]);
             if (p.onset > 0.0) {
                 point_damage[q] = p.damage;
                 point_onset[q] = p.onset;
@@ -170,8 +170,10 @@ struct InterfaceForces {
         if (damaged > 0.0 && all_points_broken(i)) {
             damage[i] = 1.0;
             if (failure_time[i] < 0.0) failure_time[i] = time;
-            const double slip_limit = retirement_slip * diameter[i];
-            if (least_opening > opening_limit[i] || most_sliding2 > slip_limit * slip_limit) retired[i] = 1;
+            if (least_opening > opening_limit[i] || most_sliding2 > slip_limit[i] * slip_limit[i]) {
+                retired[i] = 1;
+                slot.bond_acts[i] = 0;
+            }
         }
     }
 
@@ -267,6 +269,7 @@ struct ParallelForces {
         const BondCause broken = laws[law[i]].broken(f, m, n, radius[i], strength_factor[i]);
         if (broken != BondCause::whole) {  // this force still acts in this step; the contact takes over in the next
             cause[i] = static_cast<int>(broken);
+            slot.bond_acts[s] = 0;
             failure_time[i] = time;
             fracture_work[i] = stored_energy[i];
             stored_energy[i] = 0.0;
@@ -284,6 +287,7 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt, De
             dt,
             state.time,
             model.fracture_active,
+            model.dashpots_active,
             i.a.read(d),
             i.b.read(d),
             i.law.read(d),
@@ -294,7 +298,8 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt, De
             i.tangent_a.read(d),
             i.tangent_b.read(d),
             i.area.read(d),
-            i.diameter.read(d),
+            i.slip_limit.read(d),
+            i.pressure.read(d),
             i.normal_stiffness.read(d),
             i.shear_stiffness.read(d),
             i.normal_damping.read(d),
@@ -368,13 +373,15 @@ void bond_forces(const Model& model, State& state, double dt)
         parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt, model.device));
     if (state.parallels.size() > 0)
         parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt, model.device));
+    if (state.sphere_bonds.size() > 0) sphere_bond_forces(model, state, dt);
 }
 
 void bond_forces(const Model& model, State& state, const std::vector<int>& interfaces,
-                 const std::vector<int>& parallels)
+                 const std::vector<int>& parallels, const std::vector<int>& sphere_bonds)
 {
     serial_for(interfaces, interface_kernel(model, state, 0.0, Device::cpu));
     serial_for(parallels, parallel_kernel(model, state, 0.0, Device::cpu));
+    sphere_bond_forces(model, state, sphere_bonds);
 }
 
 void start_bonds(const Model&, State& state)
@@ -385,6 +392,9 @@ void start_bonds(const Model&, State& state)
         const Vec3 nb = rotate(state.bodies.orientation[p.b[i]], p.normal_b[i]);
         p.normal.host()[static_cast<std::size_t>(i)] = normalized(na + nb);
     }
+    SphereBonds& s = state.sphere_bonds;
+    for (int i = 0; i < s.size(); ++i)
+        s.normal.at(i) = normalized(state.bodies.position[s.b[i]] - state.bodies.position[s.a[i]]);
 }
 
 }  // namespace grainfrac

@@ -40,9 +40,13 @@ std::vector<std::int32_t> bonded_clusters(const State& state)
     for (int i = 0; i < state.interfaces.size(); ++i) {
         if (state.interfaces.failure_time[i] < 0.0) sets.join(state.interfaces.a[i], state.interfaces.b[i]);
     }
-    for (int i = 0; i < state.parallels.size(); ++i) {
-        if (state.parallels.cause[i] == 0) sets.join(state.parallels.a[i], state.parallels.b[i]);
-    }
+    const auto join_whole = [&](const auto& bonds) {
+        for (int i = 0; i < bonds.size(); ++i) {
+            if (bonds.cause[i] == 0) sets.join(bonds.a[i], bonds.b[i]);
+        }
+    };
+    join_whole(state.parallels);
+    join_whole(state.sphere_bonds);
     std::vector<double> mass(static_cast<std::size_t>(n), 0.0);
     std::vector<int> roots;
     for (int i = 0; i < n; ++i) {

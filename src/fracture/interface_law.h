@@ -2,7 +2,7 @@
 // Cohesive law of one interface point: onset, damage, friction.
 //
 //   t = n [(1-D) k_n <d_n> - k_n <-d_n>] + (1-D) k_s d_t + D t_fr        contact in compression is never damaged
-//   t_fr = k_s (d_t - d_sl),  |t_fr| <= mu_r k_n <-d_n>                  d_sl: slip, starts at d_t of the onset
+//   t_fr = k_s (d_t - d_sl),  |t_fr| <= mu_r (k_n <-d_n> + p) + tau_r    d_sl: slip, starts at d_t of the onset
 //   Y = k_n <d_n>^2 + k_s |d_t|^2,  lambda = sqrt(Y),  B = k_s |d_t|^2 / Y
 //   D = lambda_f (lambda - lambda_0) / (lambda (lambda_f - lambda_0)),   lambda_f = 2 G_c(B) / lambda_0
 //
@@ -55,6 +55,7 @@ struct InterfaceLaw {
     double cohesion;             ///< c [Pa]
     double friction;             ///< tan(phi) of the onset surface [-]
     double residual_friction;    ///< mu_r, <= friction or damage under pressure could release energy [-]
+    double residual_shear;       ///< tau_r of broken points without pressure [Pa]
     double fracture_energy_I;    ///< G_I [J/m^2]
     double fracture_energy_II;   ///< G_II [J/m^2]
     double mixed_mode_exponent;  ///< eta or alpha [-]
@@ -101,14 +102,27 @@ struct InterfaceLaw {
         return std::pow(std::pow((1.0 - B) / fracture_energy_I, e) + std::pow(B / fracture_energy_II, e), -1.0 / e);
     }
 
+    /// Largest friction of a broken point that is pressed by its own closing and from outside [Pa].
+    GF_FN double friction_cap(double pressed, double pressure) const
+    {
+        return residual_friction * (pressed + pressure) + residual_shear;
+    }
+
+    /// lambda at which a point goes on to soften [sqrt(J)/m]; only of points past their onset.
+    GF_FN static double softening_threshold(const InterfacePointState& p)
+    {
+        return p.failure * p.onset / (p.failure - p.damage * (p.failure - p.onset));
+    }
+
     /// Traction for the jump `d` and the new state. Dissipation is booked with the mean over the step from `before`, so
     /// that the energy account closes to second order even when the traction drops at once.
     /// @param k_n, k_s stiffness per area [Pa/m]  @param strength, toughness scatter factors [-]
     /// @param may_start false: no new onset this step (whole-face law decides, or fracture is off)
     /// @param fail break now, whatever the onset surface says
+    /// @param may_soften false: damage stays as it is  @param pressure on the face from outside, for friction [Pa]
     GF_FN InterfaceResponse operator()(const InterfaceJump& d, const InterfaceJump& before, double k_n, double k_s,
                                        double strength, double toughness, bool may_start, bool fail,
-                                       InterfacePointState& p) const
+                                       InterfacePointState& p, bool may_soften = true, double pressure = 0.0) const
     {
         const double d_n = d.n, d_1 = d.s1, d_2 = d.s2;
         const double slid2 = d_1 * d_1 + d_2 * d_2;
@@ -139,7 +153,7 @@ struct InterfaceLaw {
                 p.slip2 = d_2;
             }
         }
-        if (p.onset > 0.0 && p.damage < 1.0) {
+        if (p.onset > 0.0 && p.damage < 1.0 && may_soften) {
             if (p.failure <= p.onset) {
                 new_damage = 1.0;  // brittle, or confinement raised the onset above what G_c can carry
             } else if (lambda > p.onset) {
@@ -151,7 +165,7 @@ struct InterfaceLaw {
         // friction: elastic slip s = d_t - d_sl, returned to the Coulomb cap
         double s_1 = d_1 - p.slip1, s_2 = d_2 - p.slip2;
         if (p.onset > 0.0) {
-            const double cap = residual_friction * k_n * closing / k_s;  // as a slip [m]
+            const double cap = friction_cap(k_n * closing, pressure) / k_s;  // as a slip [m]
             const double length = std::sqrt(s_1 * s_1 + s_2 * s_2);
             if (length > cap) {
                 const double lost = 1.0 - cap / length;
@@ -163,7 +177,7 @@ struct InterfaceLaw {
                 // mean friction over the step times the slip; the elastic slip before cannot have been beyond its own
                 // cap
                 double b_1 = before.s1 - (p.slip1 - slid_1), b_2 = before.s2 - (p.slip2 - slid_2);
-                const double cap_before = before.n < 0.0 ? -residual_friction * k_n * before.n / k_s : 0.0;
+                const double cap_before = friction_cap(before.n < 0.0 ? -k_n * before.n : 0.0, pressure) / k_s;
                 const double length_before = std::sqrt(b_1 * b_1 + b_2 * b_2);
                 if (length_before > cap_before) {
                     b_1 *= cap_before / length_before;

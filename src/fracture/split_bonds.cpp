@@ -290,7 +290,7 @@ private:
     /// Least width of the rectangle with the polygon's moments, as when bonds are made.
     void set_width(const std::vector<Vec3>& polygon, int n)
     {
-        state_.interfaces.diameter.at(n) = least_width(polygon_moments(polygon));
+        state_.interfaces.slip_limit.at(n) = retirement_slip * least_width(polygon_moments(polygon));
     }
 
     const Model& model_;

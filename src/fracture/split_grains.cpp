@@ -125,6 +125,8 @@ void restore_slots(State& state, const OldSlots& old, const std::vector<int>& in
     std::size_t slot = 0;
     for (const int source : interfaces) put(slot++, source);
     for (const int source : parallels) put(slot++, old.interfaces + source);
+    const int first_sphere = old.interfaces + static_cast<int>(parallels.size());  // a split touches none of these
+    for (int i = 0; i < state.sphere_bonds.size(); ++i) put(slot++, first_sphere + i);
     std::size_t o = 0;
     for (int i = 0; i < state.contacts.size(); ++i) {
         const std::pair<int, int> pair{state.contacts.a[i], state.contacts.b[i]};
@@ -136,7 +138,7 @@ void restore_slots(State& state, const OldSlots& old, const std::vector<int>& in
 
 /// What acts on the parts.
 struct Touched {
-    std::vector<int> interfaces, parallels, contacts, bodies;
+    std::vector<int> interfaces, parallels, sphere_bonds, contacts, bodies;
 };
 
 Touched touched_by(const State& state, const std::vector<Parting>& partings)
@@ -154,7 +156,7 @@ Touched touched_by(const State& state, const std::vector<Parting>& partings)
         }
         return found;
     };
-    Touched t{list(state.interfaces), list(state.parallels), list(state.contacts), {}};
+    Touched t{list(state.interfaces), list(state.parallels), list(state.sphere_bonds), list(state.contacts), {}};
     for (std::size_t i = 0; i < concerned.size(); ++i) {
         if (concerned[i] != 0) t.bodies.push_back(static_cast<int>(i));
     }
@@ -164,7 +166,7 @@ Touched touched_by(const State& state, const std::vector<Parting>& partings)
 void bring_up_to_date(const Model& model, State& state, const Touched& t)
 {
     contact_forces(model, state, t.contacts);
-    bond_forces(model, state, t.interfaces, t.parallels);
+    bond_forces(model, state, t.interfaces, t.parallels, t.sphere_bonds);
     gather_forces(model, state, t.bodies);
 }
 

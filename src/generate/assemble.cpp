@@ -178,7 +178,7 @@ private:
             state_.corners.position_b.host().push_back(in_frame(b, corner));
         }
         // of the rectangle with these moments: a face that is long in one direction has slid off after its short one
-        at(i.diameter, n) = least_width(f.moments);
+        at(i.slip_limit, n) = retirement_slip * least_width(f.moments);
     }
 
     void parallel(const BondFace& f, const Vec3& center, double radius)

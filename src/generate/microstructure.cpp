@@ -151,6 +151,7 @@ std::vector<GrainSpec> generate_grains(const Case& c)
     std::vector<GrainSpec> all;
     for (std::size_t p = 0; p < c.parts.size(); ++p) {
         const PartSpec& part = c.parts[p];
+        if (part.kind != "grains") continue;
         const std::string key = fmt::format("parts[{}]", p);
         const std::size_t first = all.size();
         std::int32_t material = 0;

@@ -140,11 +140,13 @@ void transfer_all(Transfer&& transfer, State& state, StageSettings& stage)
     arrays("/points", state.points);
     arrays("/corners", state.corners);
     arrays("/parallels", state.parallels);
+    arrays("/sphere_bonds", state.sphere_bonds);
     arrays("/contacts", state.contacts);
     transfer.group("/slots");
     transfer("/slots/force", state.slots.force);
     transfer("/slots/torque_a", state.slots.torque_a);
     transfer("/slots/torque_b", state.slots.torque_b);
+    transfer("/slots/bond_acts", state.slots.bond_acts);
     transfer.group("/incidence");
     transfer("/incidence/begin", state.incidence.begin);
     transfer("/incidence/entry", state.incidence.entry);
@@ -182,6 +184,7 @@ void check_lengths(const std::filesystem::path& path, State& state)
     check("points", state.points);
     check("corners", state.corners);
     check("parallels", state.parallels);
+    check("sphere_bonds", state.sphere_bonds);
     check("contacts", state.contacts);
 }
 

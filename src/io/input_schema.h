@@ -225,7 +225,8 @@ void describe(V& v, PartSpec& s)
     const bool has_orientation = !(o.choices.empty() && o.random.empty() && o.file.empty());
     const bool has_region = s.region.diameter > 0.0 || norm2(s.region.size) > 0.0;
     v("name", s.name, {.required = always, .meaning = "for `between` and the results; letters, digits, `_`, `-`"});
-    v("kind", s.kind, {.words = "grains", .meaning = "grains: rigid polyhedra"});
+    v("kind", s.kind,
+      {.words = "grains | spheres", .meaning = "grains: rigid polyhedra; spheres: particles of a bonded solid"});
     v("material", s.material, {.required = always, .meaning = "name of a `[materials.NAME]`"});
     v("generator", s.generator, {.words = "hexagonal_prisms | file", .meaning = "what makes the grains"});
     v("file", s.file,

@@ -23,14 +23,15 @@ struct Bodies {
     Buffer<Vec3> inertia;           ///< principal moments [kg m^2]
     Buffer<Vec3>
         inverse_inertia;  ///< 0 where driven (but for pins, which turn), and for bodies that do not rotate [1/(kg m^2)]
-    Buffer<double> external_work;     ///< done on the system by moving this driven body [J]
-    Buffer<double> damping_work;      ///< taken by local damping [J]
-    Buffer<double> gravity_work;      ///< done by gravity [J]
-    Buffer<std::int32_t> id;          ///< never changes and is never reused; index may change [-]
-    Buffer<std::int32_t> shape;       ///< into Shapes [-]
-    Buffer<std::int32_t> group;       ///< part or wall: index into Model::groups [-]
-    Buffer<std::int32_t> wall;        ///< index into Model::walls, -1 if the body is free [-]
-    Buffer<Vec3> start_position;      ///< for displacement fields [m]
+    Buffer<double> external_work;  ///< done on the system by moving this driven body [J]
+    Buffer<double> damping_work;   ///< taken by local damping [J]
+    Buffer<double> gravity_work;   ///< done by gravity [J]
+    Buffer<std::int32_t> id;       ///< never changes and is never reused; index may change [-]
+    Buffer<std::int32_t> shape;    ///< into Shapes [-]
+    Buffer<std::int32_t> group;    ///< part or wall: index into Model::groups [-]
+    Buffer<std::int32_t> wall;     ///< index into Model::walls, -1 if the body is free [-]
+    Buffer<std::int32_t> held;     ///< of a body that moves: bits 1, 2, 4: x, y, z go as its wall does, 8: no rotation
+    Buffer<Vec3> start_position;   ///< for displacement fields [m]
     Buffer<Quat> start_orientation;   ///< for rotation fields [-]
     Buffer<Quat> crystal;             ///< crystal frame to body frame [-]
     Buffer<std::int32_t> origin;      ///< id of the grain that it was at the start [-]
@@ -67,6 +68,7 @@ struct Bodies {
         visit("shape", shape);
         visit("group", group);
         visit("wall", wall);
+        visit("held", held);
         visit("start_position", start_position);
         visit("start_orientation", start_orientation);
         visit("crystal", crystal);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds: area-integrated interfaces with their quadrature points, and circular parallel bonds. Sorted by (a, b), a < b.
+// Bonds: area-integrated interfaces with their quadrature points, circular parallel bonds of grains, bonds of spheres.
+// Each list is sorted by (a, b), a < b.
 #pragma once
 
 #include "geometry/quat.h"
@@ -8,6 +9,10 @@
 #include <cstdint>
 
 namespace grainfrac {
+
+/// A dead interface goes over to general contact once it has slid this share of its width [-]: by then its points no
+/// longer lie face to face. Larger keeps stale points, smaller hands over while the old law is still the better one.
+inline constexpr double retirement_slip = 0.2;
 
 /// Components on the two tangents of an interface.
 struct Vec2 {
@@ -23,13 +28,14 @@ struct InterfaceBonds {
     Buffer<Vec3> normal_a, normal_b;     ///< unit normal from a to b, in the frames of a and b [-]
     Buffer<Vec3> tangent_a, tangent_b;   ///< first tangent, in the frames of a and b [-]
     Buffer<double> area;                 ///< [m^2]
-    Buffer<double> diameter;             ///< least width of the face polygon [m]
+    Buffer<double> slip_limit;           ///< sliding beyond which a dead face is handed to general contact [m]
     Buffer<double> normal_stiffness;     ///< k_n per area [Pa/m]
     Buffer<double> shear_stiffness;      ///< k_s per area [Pa/m]
     Buffer<double> normal_damping;       ///< c_n per area [Pa s/m]
     Buffer<double> shear_damping;        ///< c_s per area [Pa s/m]
     Buffer<double> strength_factor;      ///< scatter: multiplies sigma_c and c [-]
     Buffer<double> toughness_factor;     ///< scatter: multiplies G_I and G_II [-]
+    Buffer<double> pressure;             ///< on the face from outside the model, of a fibre's matrix; for friction [Pa]
     Buffer<double> opening_limit;        ///< opening beyond which a dead face is handed to general contact [m]
     Buffer<std::int32_t> transgranular;  ///< 1: made by a split, within what was one grain
     Buffer<double> K_I, K_II;            ///< of the flaw that split the grain; 0 for boundaries [Pa sqrt(m)]
@@ -62,13 +68,14 @@ struct InterfaceBonds {
         visit("tangent_a", tangent_a);
         visit("tangent_b", tangent_b);
         visit("area", area);
-        visit("diameter", diameter);
+        visit("slip_limit", slip_limit);
         visit("normal_stiffness", normal_stiffness);
         visit("shear_stiffness", shear_stiffness);
         visit("normal_damping", normal_damping);
         visit("shear_damping", shear_damping);
         visit("strength_factor", strength_factor);
         visit("toughness_factor", toughness_factor);
+        visit("pressure", pressure);
         visit("opening_limit", opening_limit);
         visit("transgranular", transgranular);
         visit("K_I", K_I);
@@ -181,5 +188,77 @@ struct ParallelBonds {
         visit("viscous_force", viscous_force);
     }
 };
+
+/// Bonds between spheres, from centre to centre; the interface of a fibre is an InterfaceBond. The law says which form:
+/// total (from where the spheres are now, Kuzkin and Asonov 2012) or incremental (with a history, spring-dashpot).
+struct SphereBonds {
+    Buffer<std::int32_t> a, b;                          ///< bodies
+    Buffer<std::int32_t> law;                           ///< into Model::sphere_bond_laws
+    Buffer<double> share;                               ///< w: arm of a over the distance of the centres [-]
+    Buffer<double> length;                              ///< unstressed distance of the centres [m]
+    Buffer<double> radius;                              ///< R of the section, for stresses and pictures [m]
+    Buffer<double> normal_stiffness;                    ///< K_n [N/m]
+    Buffer<double> shear_stiffness;                     ///< K_s [N/m]
+    Buffer<double> bending_stiffness, twist_stiffness;  ///< K_b, K_t; 0 for spring-dashpots [N m]
+    Buffer<double> strength_factor;                     ///< scatter: multiplies strengths [-]
+    Buffer<Vec3> axis_a;  ///< total form: unit vector from a to b when the bond was made, in the frame of a [-]
+    Buffer<Quat> turn;    ///< total form: from the frame of b to that of a when the bond was made [-]
+    // state
+    Buffer<Vec3> shear_force;      ///< incremental form: on b, world frame [N]
+    Buffer<Vec3> moment;           ///< incremental form: bending moment on b at the contact point, world frame [N m]
+    Buffer<double> twist;          ///< incremental form: moment on b about the normal [N m]
+    Buffer<Vec3> normal;           ///< incremental form: of the last evaluation [-]
+    Buffer<std::int32_t> cause;    ///< 0 whole, 1 broke in tension, 2 in shear
+    Buffer<double> stored_energy;  ///< [J]
+    Buffer<double> fracture_work;  ///< [J]
+    Buffer<double> viscous_work;   ///< [J]
+    Buffer<double> failure_time;   ///< -1 before [s]
+    Buffer<Vec3> viscous_force, viscous_moment;  ///< on b at the contact point, of the last evaluation [N], [N m]
+
+    int size() const { return a.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
+        visit("a", a);
+        visit("b", b);
+        visit("law", law);
+        visit("share", share);
+        visit("length", length);
+        visit("radius", radius);
+        visit("normal_stiffness", normal_stiffness);
+        visit("shear_stiffness", shear_stiffness);
+        visit("bending_stiffness", bending_stiffness);
+        visit("twist_stiffness", twist_stiffness);
+        visit("strength_factor", strength_factor);
+        visit("axis_a", axis_a);
+        visit("turn", turn);
+        visit("shear_force", shear_force);
+        visit("moment", moment);
+        visit("twist", twist);
+        visit("normal", normal);
+        visit("cause", cause);
+        visit("stored_energy", stored_energy);
+        visit("fracture_work", fracture_work);
+        visit("viscous_work", viscous_work);
+        visit("failure_time", failure_time);
+        visit("viscous_force", viscous_force);
+        visit("viscous_moment", viscous_moment);
+    }
+};
+
+/// Whether a bond has left its pair to general contact.
+inline bool is_gone(const InterfaceBonds& bonds, int i)
+{
+    return bonds.retired[i] != 0;
+}
+inline bool is_gone(const ParallelBonds& bonds, int i)
+{
+    return bonds.cause[i] != 0;
+}
+inline bool is_gone(const SphereBonds& bonds, int i)
+{
+    return bonds.cause[i] != 0;
+}
 
 }  // namespace grainfrac

@@ -55,10 +55,10 @@ struct MaterialSpec {
 };
 
 struct RegionSpec {
-    std::string shape = "box";  ///< box | beam | cylinder | disc
+    std::string shape = "box";  ///< box | beam | cylinder | disc | sphere
     Vec3 center;                ///< [m]
     Vec3 size;                  ///< box, beam: full lengths [m]
-    double diameter = 0.0;      ///< cylinder, disc [m]
+    double diameter = 0.0;      ///< cylinder, disc, sphere [m]
     double height = 0.0;        ///< cylinder, disc [m]
     std::string axis = "z";     ///< cylinder, disc: x | y | z
     int facets = 96;            ///< sides that stand for the circle [-]
@@ -72,11 +72,26 @@ struct OrientationSpec {
     std::string file;             ///< text file: one quaternion w x y z a line and grain; relative to the input file
 };
 
+/// Where a chain of spheres runs.
+struct FibreSpec {
+    std::string shape = "straight";  ///< straight | wavy | hooked | points
+    Vec3 from, to;                   ///< centres of the first and last sphere; hooked: of the straight piece [m]
+    double amplitude = 0.0;          ///< wavy [m]
+    double wavelength = 0.0;         ///< wavy [m]
+    Vec3 sideways{1, 0, 0};          ///< wavy, hooked: direction of the wave, of the hooks
+    double hook_length = 0.0;        ///< hooked: of each of the two inclined pieces before `from` [m]
+    double hook_angle = 0.7853981633974483;  ///< hooked: of the inclined piece against the fibre [rad]
+    std::vector<Vec3> points;                ///< points: corners of the line [m]
+    std::optional<double> spacing;           ///< of the spheres along the line; auto: their diameter [m]
+    std::optional<double> radius;            ///< of the section; auto: that of the spheres, and their mass [m]
+};
+
 struct PartSpec {
     std::string name;
-    std::string kind = "grains";  ///< grains
+    std::string kind = "grains";  ///< grains | spheres
     std::string material;
-    std::string generator = "hexagonal_prisms";  ///< hexagonal_prisms | file
+    std::string generator = "hexagonal_prisms";  ///< grains: hexagonal_prisms | file; spheres: hcp | fcc |
+                                                 ///< random_dense | chain | taken | file
     std::string file;                       ///< generator = "file": a microstructure written by `grainfrac generate`
     double side = 0.0;                      ///< [m]
     double thickness = 0.0;                 ///< [m]
@@ -85,6 +100,14 @@ struct PartSpec {
     std::optional<double> dilation_radius;  ///< [m]; auto: 0.04 of the mean inradius
     double sliver_fraction = 0.05;          ///< [-]
     double gap = 0.0;                       ///< between neighbours, which are smaller by it [m]
+    // spheres
+    double diameter = 0.0;           ///< hcp, fcc: spacing too; random_dense: the mean; chain: of its spheres [m]
+    double size_ratio = 1.0;         ///< random_dense: largest over smallest diameter [-]
+    double solid_fraction = 0.6;     ///< random_dense [-]
+    std::string lattice_axis = "z";  ///< hcp: c axis: x | y | z
+    std::string inside;              ///< part whose spheres make room (chain) or are taken (taken)
+    FibreSpec fibre;                 ///< chain
+    std::vector<Vec3> copies;        ///< chain: the same again, moved by these [m]
     RegionSpec region;
     std::string at_region_boundary = "keep";  ///< keep | cut
     OrientationSpec orientation;
@@ -94,11 +117,13 @@ struct PartSpec {
 
 struct BondSpec {
     std::array<std::string, 2> between{"*", "*"};
-    std::string law = "interface";           ///< interface | parallel | point
+    std::string law = "interface";           ///< interface | parallel | spring | point
+    std::string form = "total";              ///< parallel between spheres: total | incremental
     std::optional<double> normal_stiffness;  ///< [Pa/m]; auto: from elasticity and the distance of the centres
     std::optional<double> shear_ratio;       ///< k_s/k_n [-]; auto: from `elasticity`
-    std::string elasticity =
-        "homogeneous";  ///< homogeneous (nu = 0) | plane (honeycomb) | solid (isotropic 3-D): rule of `auto`
+    /// Rule of `auto`. Grains: homogeneous (nu = 0) | plane (honeycomb) | solid (isotropic 3-D); spheres: their
+    /// packing's
+    std::string elasticity = "homogeneous";
     std::string failure = "point";       ///< unbreakable | point (each point) | face (whole face at its worst corner)
     std::string softening = "bilinear";  ///< brittle | bilinear
     std::string onset = "mohr_coulomb";  ///< mohr_coulomb | quadratic
@@ -119,7 +144,17 @@ struct BondSpec {
     double misorientation_effect = 0.3;          ///< chi [-]
     double moment_contribution = 1.0;            ///< parallel, point: beta [-]
     std::optional<double> bond_radius;           ///< parallel: circle of equal area; point: dilation radius [m]
-    std::string made_in;                         ///< stage of kind "bond" that makes them; "": there from the start
+    double gap_factor = 1e-3;                    ///< spheres: largest gap that is bonded, over both radii [-]
+    // the interface of a fibre (a part with `inside`)
+    double shear_stiffness = 0.0;        ///< K_0 [Pa/m]
+    std::optional<double> yield_slip;    ///< delta_0 [m]
+    std::optional<double> failure_slip;  ///< delta_1 [m]
+    double residual_shear = 0.0;         ///< tau_r of the broken interface [Pa]
+    double radial_pressure = 0.0;        ///< p_0 of the matrix on the fibre [Pa]
+    double pressure_drop = 0.0;          ///< k_p: fall of the pressure per stress of the fibre [-]
+    std::string frame = "surface";       ///< surface: of the fibre's cylinder | branch: between the centres
+    std::string reach = "level";         ///< lattice fibre: level: spheres side by side | all: all that touch
+    std::string made_in;                 ///< stage of kind "bond" that makes them; "": there from the start
 };
 
 struct ContactSpec {
@@ -195,10 +230,12 @@ struct StopSpec {
     std::optional<double> strain;     ///< platen displacement over specimen size [-]
     std::optional<double> time;       ///< [s]
     std::optional<double> rest;       ///< drop: kinetic energy over m g h [-]
+    std::optional<double> slip;       ///< pull_out: of the exit [m]
+    std::optional<double> damage;     ///< pull_out: mean of the interface [-]
 };
 struct TestSpec {
     /// brazilian | uniaxial_compression | uniaxial_tension | three_point_bending | four_point_bending | notched_beam |
-    /// dcb | drop | custom
+    /// dcb | drop | pull_out | custom
     std::string kind = "custom";
     double platen_speed = 0.0;                 ///< closing (tension: opening) speed of both sides together [m/s]
     std::string platen = "flat";               ///< brazilian: flat | curved
@@ -215,7 +252,15 @@ struct TestSpec {
     double crack_length = 0.0;                 ///< dcb [m]
     double drop_height = 0.0;                  ///< [m]
     std::optional<double> side_gap;            ///< drop: from specimen to side walls [m]; auto: no side walls
-    std::optional<double> ramp;                ///< [s]; auto: 10 L/c0
+    std::string fibre;                         ///< pull_out: part that is pulled
+    std::string matrix;                        ///< pull_out: part that holds it
+    std::string support = "uniform";           ///< pull_out: of the matrix' far face: uniform | held
+    std::string control = "damage";            ///< pull_out: damage (whole path) | displacement | speed
+    double damage_step = 0.01;                 ///< pull_out: mean damage of an event at most [-]
+    std::optional<double> displacement_step;   ///< pull_out, displacement: of the grip between equilibria [m]
+    std::vector<double> profiles_at{0.0, 0.1, 0.5, 0.8, 0.9};  ///< pull_out: mean damages whose profiles are kept [-]
+    double relaxed = 1e-6;       ///< pull_out: mean residual over mean force of bonds at rest [-]
+    std::optional<double> ramp;  ///< [s]; auto: 10 L/c0
     StopSpec stop;
 };
 

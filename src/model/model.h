@@ -5,6 +5,8 @@
 #include "contact/linear_contact.h"
 #include "fracture/interface_law.h"
 #include "fracture/parallel_law.h"
+#include "fracture/sphere_bond_law.h"
+#include "model/bodies.h"
 #include "model/shapes.h"
 
 #include <cstdint>
@@ -65,15 +67,27 @@ struct Model {
     std::vector<Polyhedron> grain_shapes;  ///< sharp polyhedron of each body in its frame; empty for walls
     Buffer<InterfaceLaw> interface_laws;
     Buffer<ParallelLaw> parallel_laws;
+    Buffer<SphereBondLaw> sphere_bond_laws;
     Buffer<LinearContact> contact_laws;
     std::vector<std::int32_t> contact_law_of;  ///< group x group -> contact law, row by row
     Vec3 gravity;                              ///< [m/s^2]
     double local_damping = 0.0;                ///< alpha [-]
     bool resolve_impacts = false;  ///< the time step resolves rebounds of fragments too, not of loose grains only
-    bool fracture_active = true;   ///< bonds may break in this stage
-    double skin = 0.0;             ///< of the neighbour list [m]
-    double nominal_length = 0.0;   ///< mean grain spacing, for scales and tolerances [m]
+    bool fracture_active = true;   ///< bonds may break or soften in this stage
+    bool dashpots_active = true;   ///< of bonds; relaxation brings its own damping
+    double drag_rate = 0.0;        ///< of relaxation: drag per mass and velocity [1/s]
+    std::vector<std::int32_t> spread_supports;  ///< walls whose bodies stay put in the mean, under equal forces
+    Vec3 spread_direction;                      ///< along which they do [-]
+    double skin = 0.0;                          ///< of the neighbour list [m]
+    double nominal_length = 0.0;                ///< mean grain spacing, for scales and tolerances [m]
     Device device = Device::cpu;
 };
+
+/// A body of a part that is no polyhedron.
+inline bool is_sphere(const Model& model, const Bodies& bodies, int i)
+{
+    return !model.groups[static_cast<std::size_t>(bodies.group[i])].is_wall &&
+           model.grain_shapes[static_cast<std::size_t>(i)].faces.empty();
+}
 
 }  // namespace grainfrac

@@ -70,6 +70,14 @@ int add_sphere_shape(Shapes& shapes, double radius)
     return close_shape(shapes, radius, 0.0, std::numbers::pi * radius * radius, radius);
 }
 
+int add_ball_shape(Shapes& shapes, double radius)
+{
+    open_lists(shapes);
+    shapes.vertices.host().push_back({});
+    const double section = std::numbers::pi * radius * radius;
+    return close_shape(shapes, radius, section, section, radius);
+}
+
 int add_cylinder_shape(Shapes& shapes, const Vec3& axis, double length, double radius)
 {
     open_lists(shapes);

@@ -58,8 +58,10 @@ inline constexpr int max_face_vertices = 24;
 /// Append a polyhedral core (body frame); returns the shape's index. Throws std::invalid_argument for a face with more
 /// than max_face_vertices vertices.
 int add_shape(Shapes& shapes, const Polyhedron& core, double radius);
-/// A ball: the one-vertex core.
+/// A ball that is a wall: its contacts take their reference area from the other body.
 int add_sphere_shape(Shapes& shapes, double radius);
+/// A ball that is a particle: its section is the reference area of its contacts.
+int add_ball_shape(Shapes& shapes, double radius);
 /// A cylinder with rounded ends along `axis` (body frame): the one-edge core of full length `length`.
 int add_cylinder_shape(Shapes& shapes, const Vec3& axis, double length, double radius);
 

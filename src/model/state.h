@@ -10,13 +10,16 @@
 
 namespace grainfrac {
 
-/// What an interaction does to its two bodies. Slots: interfaces first, then parallel bonds, then contacts.
+/// What an interaction does to its two bodies. Slots: bonds, kind by kind as in State::for_each_bond_kind, then
+/// contacts.
 struct Slots {
     Buffer<Vec3> force;     ///< on b; a gets the opposite [N]
     Buffer<Vec3> torque_a;  ///< about the centre of a [N m]
     Buffer<Vec3> torque_b;  ///< about the centre of b [N m]
     Buffer<Mat3> dyad_a;  ///< sum of d (x) f about the centre of a; empty unless this step was asked for stresses [N m]
     Buffer<Mat3> dyad_b;  ///< the same for b [N m]
+
+    Buffer<std::int32_t> bond_acts;  ///< per slot of a bond: 1 while it holds its pair, which has no contact then
 
     int size() const { return force.size(); }
     void resize(int n)
@@ -44,6 +47,7 @@ struct State {
     InterfacePoints points;
     InterfaceCorners corners;
     ParallelBonds parallels;
+    SphereBonds sphere_bonds;
     Contacts contacts;
     Slots slots;
     Incidence incidence;
@@ -54,7 +58,16 @@ struct State {
     std::int64_t step = 0;
     std::int64_t next_look = 0;  ///< step of the next look for cleavage that asks the gate
 
-    int bond_slots() const { return interfaces.size() + parallels.size(); }
+    /// The one list of kinds, in the order of their slots: visit(bonds, first slot).
+    template <class Visit>
+    void for_each_bond_kind(Visit&& visit) const
+    {
+        visit(interfaces, 0);
+        visit(parallels, interfaces.size());
+        visit(sphere_bonds, first_sphere_slot());
+    }
+    int first_sphere_slot() const { return interfaces.size() + parallels.size(); }
+    int bond_slots() const { return first_sphere_slot() + sphere_bonds.size(); }
 };
 
 }  // namespace grainfrac

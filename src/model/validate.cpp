@@ -75,6 +75,7 @@ std::string why_not_valid(const Model& model, const State& state)
     if (auto why = bodies_problem(model, state.bodies); !why.empty()) return why;
     if (auto why = bonds_problem("interface", state.interfaces, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
+    if (auto why = bonds_problem("sphere bond", state.sphere_bonds, state.bodies.size()); !why.empty()) return why;
     for (int q = 0; q < state.points.size(); ++q) {
         if (!(state.points.damage[q] >= 0.0 && state.points.damage[q] <= 1.0))
             return fmt::format("interface point {}: damage out of [0, 1]", q);
@@ -92,6 +93,8 @@ std::uint64_t state_hash(const State& state)
     h.add(state.points.damage);
     h.add(state.points.slip);
     h.add(state.parallels.force);
+    h.add(state.sphere_bonds.shear_force);
+    h.add(state.sphere_bonds.cause);
     h.add(state.contacts.shear_force);
     h.add(state.contacts.max_overlap);
     return h.value();

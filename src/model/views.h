@@ -11,22 +11,24 @@ struct MotionView {
     View<const Vec3> position, velocity, angular_velocity;
     View<const Quat> orientation;
     View<const double> inverse_mass;
+    View<const Vec3> inverse_inertia;
 };
 inline MotionView motion_view(const Bodies& b, Device device)
 {
-    return {b.position.read(device), b.velocity.read(device), b.angular_velocity.read(device),
-            b.orientation.read(device), b.inverse_mass.read(device)};
+    return {b.position.read(device),    b.velocity.read(device),     b.angular_velocity.read(device),
+            b.orientation.read(device), b.inverse_mass.read(device), b.inverse_inertia.read(device)};
 }
 
 /// Where an interaction writes what it does; `dyad_*` are empty views unless stresses are wanted.
 struct SlotsView {
     View<Vec3> force, torque_a, torque_b;
     View<Mat3> dyad_a, dyad_b;
+    View<std::int32_t> bond_acts;
 };
 inline SlotsView slots_view(Slots& s, Device device)
 {
-    return {s.force.write(device), s.torque_a.write(device), s.torque_b.write(device), s.dyad_a.write(device),
-            s.dyad_b.write(device)};
+    return {s.force.write(device),  s.torque_a.write(device), s.torque_b.write(device),
+            s.dyad_a.write(device), s.dyad_b.write(device),   s.bond_acts.write(device)};
 }
 
 /// 1/(1/m_a + 1/m_b); 0 if both are driven [kg].

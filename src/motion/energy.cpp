@@ -20,14 +20,19 @@ double total(Device d, const Buffer<double>& values)
     return parallel_sum(d, values.size(), Entry{values.read(d)});
 }
 
-/// 1/2 m v^2 + 1/2 L_b . I^-1 L_b of what is not driven.
+/// 1/2 m v^2 + 1/2 L_b . I^-1 L_b of what is not driven or held.
 struct KineticEnergy {
     View<const Vec3> velocity, angular_momentum, inverse_inertia;
     View<const double> mass, inverse_mass;
+    View<const std::int32_t> held;
     GF_FN double operator()(int i) const
     {
         const Vec3 L = angular_momentum[i], j = inverse_inertia[i];
-        const double translation = inverse_mass[i] > 0.0 ? 0.5 * mass[i] * norm2(velocity[i]) : 0.0;
+        Vec3 v = velocity[i];
+        for (int k = 0; k < 3; ++k) {
+            if ((held[i] >> k) % 2 != 0) v[k] = 0.0;
+        }
+        const double translation = inverse_mass[i] > 0.0 ? 0.5 * mass[i] * norm2(v) : 0.0;
         return translation + 0.5 * (L.x * L.x * j.x + L.y * L.y * j.y + L.z * L.z * j.z);
     }
 };
@@ -47,18 +52,20 @@ Ledger energy_ledger(const Model& model, const State& state)
     const Bodies& b = state.bodies;
     const InterfaceBonds& i = state.interfaces;
     const ParallelBonds& p = state.parallels;
+    const SphereBonds& s = state.sphere_bonds;
     const Contacts& c = state.contacts;
     const PastContacts& past = state.past_contacts;
     Ledger e;
     e.kinetic = parallel_sum(d, b.size(),
                              KineticEnergy{b.velocity.read(d), b.angular_momentum.read(d), b.inverse_inertia.read(d),
-                                           b.mass.read(d), b.inverse_mass.read(d)});
-    e.elastic_bonds = total(d, i.stored_energy) + total(d, p.stored_energy);
+                                           b.mass.read(d), b.inverse_mass.read(d), b.held.read(d)});
+    e.elastic_bonds = total(d, i.stored_energy) + total(d, p.stored_energy) + total(d, s.stored_energy);
     e.elastic_contacts = total(d, c.stored_energy);
-    e.fracture = total(d, i.fracture_work) + total(d, p.fracture_work);
+    e.fracture = total(d, i.fracture_work) + total(d, p.fracture_work) + total(d, s.fracture_work);
     e.friction = total(d, i.friction_work) + total(d, c.friction_work) + past.friction_work;
-    e.damping = total(d, i.viscous_work) + total(d, p.viscous_work) + total(d, c.viscous_work) + past.viscous_work +
-                total(d, c.hysteresis_work) + past.hysteresis_work + total(d, b.damping_work);
+    e.damping = total(d, i.viscous_work) + total(d, p.viscous_work) + total(d, s.viscous_work) +
+                total(d, c.viscous_work) + past.viscous_work + total(d, c.hysteresis_work) + past.hysteresis_work +
+                total(d, b.damping_work);
     e.inserted = total(d, i.inserted_work) + total(d, c.inserted_work) + past.inserted_work;
     e.external = total(d, b.external_work);
     e.gravity = total(d, b.gravity_work);

@@ -23,6 +23,16 @@ GF_FN Vec3 scaled(const Vec3& a, const Vec3& b)
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
+/// Bits of Bodies::held.
+constexpr std::int32_t held_axis[3] = {1, 2, 4}, held_rotation = 8;
+
+/// The components that a partly held body does not choose itself are put back to those of `driven`.
+GF_FN Vec3 with_held(const Vec3& v, const Vec3& driven, std::int32_t held)
+{
+    return {(held & held_axis[0]) != 0 ? driven.x : v.x, (held & held_axis[1]) != 0 ? driven.y : v.y,
+            (held & held_axis[2]) != 0 ? driven.z : v.z};
+}
+
 /// All but driven bodies and those without rotation; a pin is driven and turns.
 GF_FN bool turns_freely(const Vec3& inverse_inertia)
 {
@@ -31,10 +41,11 @@ GF_FN bool turns_freely(const Vec3& inverse_inertia)
 
 struct Kick {
     static constexpr const char* name = "kick";
-    double dt, local_damping;
+    double dt, local_damping, drag_rate;
     Vec3 gravity;
     View<const Vec3> force, torque, inverse_inertia;
     View<const double> mass, inverse_mass;
+    View<const std::int32_t> held;
     View<const Quat> orientation;
     View<Vec3> velocity, angular_momentum, angular_velocity;
     View<double> external_work, damping_work, gravity_work;
@@ -50,8 +61,17 @@ struct Kick {
             external_work[i] -= dt * dot(force[i], velocity[i]);
         } else {
             const Vec3 v = velocity[i];
-            const Vec3 drag = local_damping > 0.0 ? local_drag(local_damping, force[i], v) : Vec3{};
-            const Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
+            Vec3 drag = local_damping > 0.0 ? local_drag(local_damping, force[i], v) : Vec3{};
+            Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
+            if (drag_rate > 0.0) {  // -rate m (v + v_new)/2, solved for v_new
+                v_new = (v_new - (0.5 * dt * drag_rate) * v) * (1.0 / (1.0 + 0.5 * dt * drag_rate));
+                drag -= (0.5 * drag_rate * mass[i]) * (v + v_new);
+            }
+            if (held[i] != 0) {  // the system pushes back along what is held, we push with the opposite force
+                v_new = with_held(v_new, v, held[i]);
+                external_work[i] -= dt * dot(force[i] - with_held(force[i], {}, held[i]), v);
+                drag = with_held(drag, {}, held[i]);
+            }
             const Vec3 mean = 0.5 * (v + v_new);
             gravity_work[i] += dt * mass[i] * dot(gravity, mean);
             velocity[i] = v_new;
@@ -60,8 +80,16 @@ struct Kick {
 
         const Vec3 t = rotate_back(orientation[i], torque[i]);
         const Vec3 spin = scaled(inverse_inertia[i], angular_momentum[i]);
-        const Vec3 brake = local_damping > 0.0 ? local_drag(local_damping, t, spin) : Vec3{};
-        const Vec3 L = angular_momentum[i] + dt * (t + brake);
+        Vec3 brake = local_damping > 0.0 ? local_drag(local_damping, t, spin) : Vec3{};
+        Vec3 L = angular_momentum[i] + dt * (t + brake);
+        if (drag_rate > 0.0) {
+            L = (L - (0.5 * dt * drag_rate) * angular_momentum[i]) * (1.0 / (1.0 + 0.5 * dt * drag_rate));
+            brake -= (0.5 * drag_rate) * (angular_momentum[i] + L);
+        }
+        if ((held[i] & held_rotation) != 0) {
+            L = angular_momentum[i];
+            brake = Vec3{};
+        }
         const Vec3 spin_new = scaled(inverse_inertia[i], L);
         damping_work[i] -= dt * (braked + dot(brake, 0.5 * (spin + spin_new)));
         angular_momentum[i] = L;
@@ -92,12 +120,15 @@ struct Drift {
 struct MoveWalls {
     static constexpr const char* name = "move walls";
     double time;
-    View<const std::int32_t> wall;
+    View<const std::int32_t> wall, held;
+    View<const double> inverse_mass;
     View<const WallMotion> motion;
     View<Vec3> velocity;
     GF_FN void operator()(int i) const
     {
-        if (wall[i] >= 0) velocity[i] = motion[wall[i]].at(time);
+        if (wall[i] < 0) return;
+        const Vec3 v = motion[wall[i]].at(time);
+        velocity[i] = inverse_mass[i] > 0.0 ? with_held(velocity[i], v, held[i]) : v;
     }
 };
 
@@ -119,11 +150,12 @@ void kick(const Model& model, State& state, double dt)
 {
     const Device d = model.device;
     Bodies& b = state.bodies;
-    parallel_for(d, b.size(),
-                 Kick{dt, model.local_damping, model.gravity, b.force.read(d), b.torque.read(d),
-                      b.inverse_inertia.read(d), b.mass.read(d), b.inverse_mass.read(d), b.orientation.read(d),
-                      b.velocity.write(d), b.angular_momentum.write(d), b.angular_velocity.write(d),
-                      b.external_work.write(d), b.damping_work.write(d), b.gravity_work.write(d)});
+    parallel_for(
+        d, b.size(),
+        Kick{dt, model.local_damping, model.drag_rate, model.gravity, b.force.read(d), b.torque.read(d),
+             b.inverse_inertia.read(d), b.mass.read(d), b.inverse_mass.read(d), b.held.read(d), b.orientation.read(d),
+             b.velocity.write(d), b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
+             b.damping_work.write(d), b.gravity_work.write(d)});
 }
 
 void drift(const Model& model, State& state, double dt)
@@ -140,7 +172,9 @@ void move_walls(const Model& model, State& state, double time)
     if (model.walls.empty()) return;
     const Device d = model.device;
     Bodies& b = state.bodies;
-    parallel_for(d, b.size(), MoveWalls{time, b.wall.read(d), model.wall_motion.read(d), b.velocity.write(d)});
+    parallel_for(d, b.size(),
+                 MoveWalls{time, b.wall.read(d), b.held.read(d), b.inverse_mass.read(d), model.wall_motion.read(d),
+                           b.velocity.write(d)});
 }
 
 void update_angular_velocity(const Model& model, State& state)

@@ -21,6 +21,11 @@ void update_angular_velocity(const Model& model, State& state);
 /// Turn over dt of a torque-free rigid body; L and q are advanced. Symmetric: axes 1, 2, 3, 2, 1.
 GF_FN void rotate_freely(const Vec3& inverse_inertia, double dt, Vec3& L, Quat& q)
 {
+    if (inverse_inertia.x == inverse_inertia.y && inverse_inertia.y == inverse_inertia.z) {  // a sphere: about L itself
+        const double length = norm(L);
+        if (length > 0.0) q = normalized(q * from_axis_angle(L * (1.0 / length), dt * length * inverse_inertia.x));
+        return;
+    }
     const int axis[5] = {0, 1, 2, 1, 0};
     const double part[5] = {0.5, 0.5, 1.0, 0.5, 0.5};
     for (int k = 0; k < 5; ++k) {

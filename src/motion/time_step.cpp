@@ -39,6 +39,7 @@ void add_spring(Matrix6& K, const Vec3& arm, const Vec3& n, double k_n, double k
 
 struct Stiffness {
     std::vector<Matrix6> K;           // per body, world axes about its centre
+    std::vector<Matrix6> C;           // dashpots of sphere bonds, the same way; empty without any
     std::vector<const char*> source;  // what is stiffest on it
     std::vector<double> strongest;
     std::vector<char> wanted;
@@ -104,6 +105,40 @@ void add_parallels(const State& state, Stiffness& s)
         };
         side(p.a[i], p.position_a[i], p.normal_a[i]);
         side(p.b[i], p.position_b[i], p.normal_b[i]);
+    }
+}
+
+void add_sphere_bonds(const Model& model, const State& state, Stiffness& s)
+{
+    const SphereBonds& p = state.sphere_bonds;
+    const Bodies& b = state.bodies;
+    if (p.size() > 0) s.C.assign(s.K.size(), Matrix6::Zero());
+    for (int i = 0; i < p.size(); ++i) {
+        if (p.cause[i] != 0 || !s.wants(p.a[i], p.b[i])) continue;
+        const int bodies[2] = {p.a[i], p.b[i]};
+        const Vec3 branch = b.position[bodies[1]] - b.position[bodies[0]];
+        BondGeometry g;
+        g.length = norm(branch);
+        g.e = branch / g.length;
+        g.rest = p.length[i];
+        g.share = p.share[i];
+        const BondSprings k{p.normal_stiffness[i], p.shear_stiffness[i], p.bending_stiffness[i], p.twist_stiffness[i]};
+        const BondMasses m(g, b.inverse_mass[bodies[0]], b.inverse_mass[bodies[1]], b.inverse_inertia[bodies[0]].x,
+                           b.inverse_inertia[bodies[1]].x);
+        const double zeta = model.dashpots_active ? model.sphere_bond_laws[p.law[i]].damping : 0.0;
+        const BondDashpots c(zeta, k, m);
+        const Vec3 arms[2] = {g.arm_a() * g.e, -g.arm_b() * g.e};
+        const Eigen::Vector3d e = eigen(g.e);
+        const Eigen::Matrix3d ee = e * e.transpose(), rest = Eigen::Matrix3d::Identity() - ee;
+        for (const int side : {0, 1}) {
+            const auto body = static_cast<std::size_t>(bodies[side]);
+            if (s.wanted[body] == 0) continue;
+            s.add(bodies[side], arms[side], g.e, k.normal, k.shear, "bond");
+            s.K[body].bottomRightCorner<3, 3>() += k.bending * rest + k.twist * ee;
+            if (zeta == 0.0) continue;
+            add_spring(s.C[body], arms[side], g.e, c.normal, c.shear);
+            s.C[body].bottomRightCorner<3, 3>() += c.bending * rest + c.twist * ee;
+        }
     }
 }
 
@@ -210,6 +245,7 @@ void limit_for_loose_bodies(const Model& model, const State& state, const std::v
     };
     mark(state.interfaces, state.interfaces.retired);
     mark(state.parallels, state.parallels.cause);
+    mark(state.sphere_bonds, state.sphere_bonds.cause);
     double stiffest = 0.0;
     for (const LinearContact& law : model.contact_laws.host())
         stiffest = std::fmax(stiffest, law.area_stiffness * law.unload_factor);
@@ -237,8 +273,9 @@ TimeStepBound bound_of(const Model& model, const State& state, const std::vector
     Stiffness s(wanted);
     add_interfaces(state, s);
     add_parallels(state, s);
+    add_sphere_bonds(model, state, s);
     add_contacts(model, state, s);
-    double largest = 0.0;
+    double largest = 0.0, damped = 0.0;  // [1/s^2]; shortest step by a body's own dashpots [s]
     TimeStepBound bound;
     for (int i = 0; i < state.bodies.size(); ++i) {
         const bool moves = state.bodies.inverse_mass[i] > 0.0 || norm2(state.bodies.inverse_inertia[i]) > 0.0;
@@ -248,6 +285,11 @@ TimeStepBound bound_of(const Model& model, const State& state, const std::vector
             largest = lambda;
             bound.body = i;
         }
+        if (s.C.empty() || s.C[static_cast<std::size_t>(i)].isZero()) continue;
+        // dt^2 K + 2 dt C <= 4 M, each sum over pairs bounded by twice the blocks on the diagonal
+        const double c = largest_eigenvalue(state.bodies, i, s.C[static_cast<std::size_t>(i)]);
+        const double step = (std::sqrt(c * c + 2.0 * lambda) - c) / lambda;
+        damped = damped > 0.0 ? std::fmin(damped, step) : step;
     }
     if (bound.body >= 0) {
         bound.critical = std::sqrt(2.0 / largest);
@@ -258,6 +300,7 @@ TimeStepBound bound_of(const Model& model, const State& state, const std::vector
     if (bound.body < 0) return bound;
     const double zeta = damping_at(state, model, 2.0 / bound.critical);
     bound.with_damping = bound.critical * (std::sqrt(1.0 + zeta * zeta) - zeta);
+    if (damped > 0.0) bound.with_damping = std::fmin(bound.with_damping, damped);
     return bound;
 }
 
