@@ -58,11 +58,15 @@ struct SphereBondForces {
         const BondSprings k{normal_stiffness[i], shear_stiffness[i], bending_stiffness[i], twist_stiffness[i]};
         const bool damped = l.damping > 0.0 && dashpots_active;
 
-        Vec3 velocity, relative_spin, mean_spin;  // of b against a at the contact point
+        // of b against a at the contact point, at mid step like the velocities: with the branch of the end of the step
+        // a turning pair would seem to stretch, and a stretching one to slide
+        Vec3 velocity, relative_spin, mean_spin, middle;
         if (damped || l.incremental) {
             const Vec3 wa = body.angular_velocity[A], wb = body.angular_velocity[B];
-            const Vec3 e = l.incremental ? normalized(normal[i] + g.e) : g.e;
-            velocity = body.velocity[B] - body.velocity[A] - cross(g.arm_b() * wb, e) - cross(g.arm_a() * wa, e);
+            const Vec3 apart = body.velocity[B] - body.velocity[A];
+            const Vec3 half = branch - (0.5 * dt) * apart;
+            velocity = apart - cross((1.0 - g.share) * wb + g.share * wa, half);
+            middle = normalized(half);
             relative_spin = wb - wa;
             mean_spin = 0.5 * (wa + wb);
         }
@@ -83,7 +87,7 @@ struct SphereBondForces {
             const BondMasses m(g, body.inverse_mass[A], body.inverse_mass[B], body.inverse_inertia[A].x,
                                body.inverse_inertia[B].x);
             const BondDashpots c(l.damping, k, m);
-            const Vec3 v_n = dot(velocity, g.e) * g.e, w_n = dot(relative_spin, g.e) * g.e;
+            const Vec3 v_n = dot(velocity, middle) * middle, w_n = dot(relative_spin, middle) * middle;
             const Vec3 drag = -c.normal * v_n - c.shear * (velocity - v_n);
             const Vec3 brake = -c.twist * w_n - c.bending * (relative_spin - w_n);
             viscous_work[i] -=

@@ -86,8 +86,9 @@ GF_FN BondAction incremental_bond(const BondGeometry& g, const BondSprings& k, c
 {
     const Vec3 middle = normalized(h.normal + g.e);
     const double spin = dt * dot(mean_spin, g.e);
-    const Vec3 sheared = turn_with_contact(tangential(velocity, middle), middle, g.e, 0.0);
-    const Vec3 bent = turn_with_contact(tangential(turn, middle), middle, g.e, 0.0);
+    // what was added at mid step still turns with the second half of the spin: else first order only
+    const Vec3 sheared = turn_with_contact(tangential(velocity, middle), middle, g.e, 0.5 * spin);
+    const Vec3 bent = turn_with_contact(tangential(turn, middle), middle, g.e, 0.5 * spin);
     h.shear_force = turn_with_contact(h.shear_force, h.normal, g.e, spin) - (k.shear * dt) * sheared;
     h.moment = turn_with_contact(h.moment, h.normal, g.e, spin) - (k.bending * dt) * bent;
     h.twist -= k.twist * dt * dot(turn, middle);

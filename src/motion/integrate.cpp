@@ -7,15 +7,12 @@ namespace grainfrac {
 
 namespace {
 
-GF_FN double product_sign(double value, double rate)
-{
-    return rate > 0.0 ? std::fabs(value) : (rate < 0.0 ? -std::fabs(value) : 0.0);
-}
-
-/// Local non-viscous damping per component: alpha |F| against the motion (Cundall 1987).
+/// Local non-viscous damping (Cundall 1987) in a form that does not know the axes: alpha |F.v|/|v| against the motion.
+/// Of one component it is alpha |F|.
 GF_FN Vec3 local_drag(double alpha, const Vec3& f, const Vec3& v)
 {
-    return {-alpha * product_sign(f.x, v.x), -alpha * product_sign(f.y, v.y), -alpha * product_sign(f.z, v.z)};
+    const double v2 = norm2(v);
+    return v2 > 0.0 ? (-alpha * std::fabs(dot(f, v)) / v2) * v : Vec3{};
 }
 
 GF_FN Vec3 scaled(const Vec3& a, const Vec3& b)
@@ -61,7 +58,9 @@ struct Kick {
             external_work[i] -= dt * dot(force[i], velocity[i]);
         } else {
             const Vec3 v = velocity[i];
-            Vec3 drag = local_damping > 0.0 ? local_drag(local_damping, force[i], v) : Vec3{};
+            Vec3 drag;  // what is held has no say in its direction
+            if (local_damping > 0.0)
+                drag = local_drag(local_damping, with_held(force[i], {}, held[i]), with_held(v, {}, held[i]));
             Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
             if (drag_rate > 0.0) {  // -rate m (v + v_new)/2, solved for v_new
                 v_new = (v_new - (0.5 * dt * drag_rate) * v) * (1.0 / (1.0 + 0.5 * dt * drag_rate));
