@@ -3,6 +3,7 @@
 
 #include "generate/fibre_line.h"
 #include "generate/lattice.h"
+#include "generate/random_packing.h"
 
 #include <fmt/format.h>
 
@@ -71,9 +72,19 @@ Spheres packed_spheres(const Case& c, std::size_t part)
             all.push_back(s);
         }
     };
+    const auto add_balls = [&](const std::vector<Ball>& balls) {
+        for (const Ball& b : balls) {
+            s.position = b.center;
+            s.radius = b.radius;
+            all.push_back(s);
+        }
+    };
     if (p.generator == "hcp") add(hcp_sites(region, p.diameter, axis_index(p.lattice_axis)));
     if (p.generator == "fcc") add(fcc_sites(region, p.diameter));
-    if (all.empty()) throw InputError("generator", "makes no spheres in this version");
+    if (p.generator == "random_dense") {
+        add_balls(random_packing(
+            {region, p.diameter, p.size_ratio, p.solid_fraction, c.simulation.seed, static_cast<std::uint32_t>(part)}));
+    }
     return all;
 }
 

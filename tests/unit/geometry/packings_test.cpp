@@ -158,16 +158,19 @@ TEST_CASE("close packings have no two spheres that overlap, in any region", "[pa
     }
 }
 
-TEST_CASE("points drawn into a region for a sphere that is to lie inside", "[packings]")
+TEST_CASE("the shift that brings a sphere into a region", "[packings]")
 {
     const SphereRegion box(box_at({1, 0, 0}, {2, 4, 6}));
-    CHECK(box.drawn_in({5, -3, 1}, 0.5) == Vec3{1.5, -1.5, 1});
+    CHECK(box.shift_inside({5, -3, 1}, 0.5) == Vec3{-3.5, 1.5, 0});
     CHECK(box.volume() == 48.0);
+    CHECK(box.surface() == 88.0);
     const SphereRegion can(cylinder(4.0, 6.0, "y"));
-    CHECK(norm(can.drawn_in({3, 9, 4}, 0.5) - Vec3{0.9, 2.5, 1.2}) < 1e-15);
-    CHECK(can.drawn_in({0.1, 2.6, 0.2}, 0.5) == Vec3{0.1, 2.5, 0.2});
+    CHECK(norm(can.shift_inside({3, 9, 4}, 0.5) - Vec3{-2.1, -6.5, -2.8}) < 1e-14);
+    CHECK(can.shift_inside({0.1, 2.75, 0.2}, 0.5) == Vec3{0, -0.25, 0});
+    CHECK(can.surface() == Approx(32.0 * std::numbers::pi));
     const SphereRegion round(ball(4.0));
-    CHECK(norm(round.drawn_in({0, 3, 4}, 1.0) - Vec3{0, 0.6, 0.8}) < 1e-15);
+    CHECK(norm(round.shift_inside({0, 3, 4}, 1.0) - Vec3{0, -2.4, -3.2}) < 1e-14);
+    CHECK(round.shift_inside({0.1, 0.2, 0.3}, 1.0) == Vec3{});
     CHECK(round.contains({0, 0, 2}));
     CHECK_FALSE(round.contains({0, 0, 2.0001}));
 }
