@@ -4,11 +4,13 @@
 #include "generate/fibre_line.h"
 #include "generate/lattice.h"
 #include "generate/random_packing.h"
+#include "generate/sphere_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace grainfrac {
@@ -81,6 +83,13 @@ Spheres packed_spheres(const Case& c, std::size_t part)
     };
     if (p.generator == "hcp") add(hcp_sites(region, p.diameter, axis_index(p.lattice_axis)));
     if (p.generator == "fcc") add(fcc_sites(region, p.diameter));
+    if (p.generator == "file") {
+        try {
+            add_balls(read_spheres(std::filesystem::path(c.file).parent_path() / p.file, p.name));
+        } catch (const std::runtime_error& e) {
+            throw InputError("file", e.what());
+        }
+    }
     if (p.generator == "random_dense") {
         add_balls(random_packing(
             {region, p.diameter, p.size_ratio, p.solid_fraction, c.simulation.seed, static_cast<std::uint32_t>(part)}));

@@ -102,6 +102,28 @@ const Wrong wrong_parts[] = {
      "generator = \"random_dense\"\ndiameter = \"0.5 m\"\nsolid_fraction = 0.7",
      "error: FILE:12: parts[0].solid_fraction = 0.7: must be <= 0.634, random close packing at size_ratio = 1; less "
      "beside walls\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"", "generator = \"file\"\nfile = \"no_such.csv\"",
+     "error: FILE:12: parts[0].region = { shape = \"cylinder\", diameter = \"4 m\", height = \"6 m\", axis = \"x\" }: "
+     "has "
+     "no meaning here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"\nregion = { shape = \"cylinder\", diameter = \"4 "
+     "m\", height = \"6 m\", axis = \"x\" }",
+     "generator = \"file\"\nfile = \"no_such.csv\"",
+     "error: FILE:11: parts[0].file = \"no_such.csv\": cannot read \"FOLDER/no_such.csv\"\n"},
+    {"lattice_axis = \"x\"", "file = \"s.csv\"",
+     "error: FILE:12: parts[0].file = \"s.csv\": has no meaning here; it goes with generator = \"file\"\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"",
+     "generator = \"random_dense\"\ndiameter = \"0.5 m\"\nsolid_fraction = 0.63",
+     "error: FILE:12: parts[0].solid_fraction = 0.63: cannot be reached in this region: overlaps of 0.05 of the "
+     "diameter are left; about 0.57 is possible, less than far from walls\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"",
+     "generator = \"random_dense\"\ndiameter = \"0.5 m\"\nsize_ratio = 40",
+     "error: FILE:12: parts[0].size_ratio = 40: must be >= 1 and <= 10\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"",
+     "generator = \"random_dense\"\ndiameter = \"3 m\"\nsize_ratio = 3",
+     "error: FILE:11: parts[0].diameter = \"3 m\": no sphere fits: the largest are 4.5 m wide, the region is 4 m at "
+     "its "
+     "smallest\n"},
     // regions
     {"region = ", "#",
      "error: FILE:6: parts[0].region: missing; required with generator = \"hexagonal_prisms\", "
