@@ -184,7 +184,7 @@ TEST_CASE("a straight chain: equal pieces from end to end", "[packings]")
     REQUIRE(nodes.position.size() == 15);
     CHECK(nodes.piece == Approx(10.0 / 14).epsilon(1e-15));
     CHECK(nodes.position.front() == f.from);
-    CHECK(norm(nodes.position.back() - f.to) < 1e-14);
+    CHECK(nodes.position.back() == f.to);
     for (std::size_t i = 0; i < 15; ++i)
         CHECK(norm(nodes.position[i] - Vec3{1, 2, 3.0 + 10.0 * static_cast<double>(i) / 14}) < 1e-14);
 }

@@ -248,6 +248,21 @@ TEST_CASE("parts of spheres are read", "[input][packings]")
     CHECK(c.parts[1].copies == std::vector<Vec3>{{0, 1, 0}});
 }
 
+TEST_CASE("the spheres of docs/input.md are made as they stand", "[input][packings]")
+{
+    const std::string docs = contents(std::string(GF_SOURCE_DIR) + "/docs/input.md");
+    const auto begin = docs.find("[[parts]]\nname           = \"matrix\"");
+    REQUIRE(begin != docs.npos);
+    const std::string materials = "density = 2000\nyoung_modulus = \"5 GPa\"\npoisson_ratio = 0.1\n",
+                      test = "[test]\nkind = \"drop\"\ndrop_height = 1\nstop = { time = 1 }\n";
+    const Case c = read_text("[materials.mortar]\n" + materials + "[materials.steel]\n" + materials + test +
+                             docs.substr(begin, docs.find("```", begin) - begin));
+    const std::vector<SphereSpec> spheres = generate_spheres(c);
+    CHECK(spheres.size() > 2000);
+    CHECK(spheres.back().position == Vec3{0, 0, 0.02});
+    CHECK(spheres.back().chain == 0);
+}
+
 TEST_CASE("resolved.toml of parts of spheres reads back as the same case", "[input][packings]")
 {
     const std::string fibre = sphere_input;
