@@ -67,7 +67,7 @@ public:
     bool next()
     {
         while (std::getline(in_, text_)) {
-            ++line_;
+            if (++line_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // mark of UTF-8
             row_ = cells(text_);
             if (row_.size() > 1 || !row_[0].empty()) return true;
         }

@@ -103,12 +103,6 @@ const Wrong wrong_parts[] = {
      "error: FILE:12: parts[0].solid_fraction = 0.7: must be <= 0.634, random close packing at size_ratio = 1; less "
      "beside walls\n"},
     {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"", "generator = \"file\"\nfile = \"no_such.csv\"",
-     "error: FILE:12: parts[0].region = { shape = \"cylinder\", diameter = \"4 m\", height = \"6 m\", axis = \"x\" }: "
-     "has "
-     "no meaning here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"\n"},
-    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"\nregion = { shape = \"cylinder\", diameter = \"4 "
-     "m\", height = \"6 m\", axis = \"x\" }",
-     "generator = \"file\"\nfile = \"no_such.csv\"",
      "error: FILE:11: parts[0].file = \"no_such.csv\": cannot read \"FOLDER/no_such.csv\"\n"},
     {"lattice_axis = \"x\"", "file = \"s.csv\"",
      "error: FILE:12: parts[0].file = \"s.csv\": has no meaning here; it goes with generator = \"file\"\n"},
@@ -134,7 +128,7 @@ const Wrong wrong_parts[] = {
      "\"disc\"\n"},
     {"diameter = \"0.4 m\"", "diameter = \"0.4 m\"\nregion = { shape = \"sphere\", diameter = 1 }",
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 1 }: has no meaning here; it goes with "
-     "generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"\n"},
+     "any generator but \"chain\"\n"},
     {"height = \"6 m\"", "height = \"0.1 m\"",
      "error: FILE:11: parts[0].diameter = \"0.5 m\": no sphere fits: 0.5 m against 0.1 m, the smallest length of the "
      "region\n"},
@@ -154,7 +148,7 @@ const Wrong wrong_parts[] = {
      "\"chain\": a quantity > 0 m such as \"1 m\"\n"
      "error: FILE:15: parts[1].fibre: missing; required with generator = \"chain\": a table\n"
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 1, center = [9, 0, 0] }: has no meaning "
-     "here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"\n"},
+     "here; it goes with any generator but \"chain\"\n"},
     {"generator = \"chain\"\ndiameter = \"0.4 m\"\ninside = \"matrix\"\n" + chain_line,
      "generator = \"taken\"\ninside = \"matrix\"\nregion = { shape = \"sphere\", diameter = 1, center = [9, 0, 0] }",
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 1, center = [9, 0, 0] }: no sphere of "

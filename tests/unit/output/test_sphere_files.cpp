@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -90,6 +91,11 @@ TEST_CASE("a packing that is written is read back, bit for bit", "[packings]")
         CHECK(read[i].radius == made[i].radius);
         CHECK(read[i].group == made[i].group);
     }
+    c.parts[0].region.size = {1, 1, 1};  // the middle of the file's
+    const std::vector<SphereSpec> fewer = generate_spheres(c);
+    CHECK(fewer.size() < made.size());
+    CHECK(std::all_of(fewer.begin(), fewer.end(),
+                      [](const SphereSpec& s) { return s.group == 1 || std::fabs(s.position.y) <= 0.5; }));
     c.parts[1].name = "third";
     try {
         generate_spheres(c);
@@ -108,6 +114,7 @@ TEST_CASE("every format gives the same spheres", "[packings]")
     enter_sphere_formats();
     // columns in any order, others left out, blanks, line ends of either kind
     check_two(read_spheres(folder.with("s.csv",
+                                       "\xEF\xBB\xBF"
                                        "radius_m, x_m,colour,y_m,z_m\r\n0.5,0,red,.5,0\r\n\r\n 0.25 , "
                                        "0.1,,-0.25,1e-3"),
                            "rock"));
