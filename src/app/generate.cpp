@@ -3,6 +3,7 @@
 #include "generate/microstructure.h"
 #include "generate/packings.h"
 #include "generate/sphere_file.h"
+#include "generate/sphere_region.h"
 
 #include <fmt/format.h>
 

@@ -2,17 +2,13 @@
 // Dense packings without order, by removal of overlaps (docs/theory/packings.md).
 #pragma once
 
+#include "generate/ball.h"
 #include "generate/sphere_region.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace grainfrac {
-
-struct Ball {
-    Vec3 center;          ///< [m]
-    double radius = 0.0;  ///< [m]
-};
 
 /// Diameters are spread evenly between the smallest and the largest.
 struct RandomPackingSpec {

@@ -2,8 +2,9 @@
 // Files of spheres: a table of centres and radii, in metres (docs/theory/packings.md).
 #pragma once
 
-#include "generate/random_packing.h"
+#include "generate/ball.h"
 #include "generate/spheres.h"
+#include "model/case.h"
 
 #include <filesystem>
 #include <string>

@@ -6,7 +6,7 @@
 
 namespace grainfrac {
 
-/// Point of view of one region: a box, or a cylinder or ball of radius `radius`.
+/// A box, or a cylinder or ball of radius `radius`.
 struct SphereRegion {
     enum class Shape { box, cylinder, ball } shape = Shape::box;
     Vec3 center;          ///< [m]

@@ -2,7 +2,7 @@
 // Files of spheres whose formats need a library.
 #pragma once
 
-#include "generate/random_packing.h"
+#include "generate/ball.h"
 
 #include <filesystem>
 #include <vector>

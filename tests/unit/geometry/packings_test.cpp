@@ -299,3 +299,67 @@ TEST_CASE("the matrix makes room for a fibre", "[packings]")
         CHECK(count_by_group(generate_spheres(c))[0] == 19 + 3 * 18);
     }
 }
+
+TEST_CASE("points of the lattice in the section of a fibre", "[packings]")
+{
+    // Fibre of radius 1 m in the HCP matrix of the pull-out, c along it: 7 or 3 points a level at d = 1 m, 7 at 0.7 m,
+    // 19 or, without those on the surface, 13 at 0.5 m.
+    const auto levels = [](double d, double radius) {
+        Case c = fibre_case();
+        c.parts[0].diameter = d;
+        c.parts[1].generator = "taken";
+        c.parts[1].region = cylinder(2.0 * radius, 30.0);
+        std::map<int, int> count;  // by the number of the level
+        const double h = std::sqrt(2.0 / 3.0) * d;
+        const std::vector<SphereSpec> spheres = generate_spheres(c);
+        const double bottom = spheres[0].position.z;  // of the matrix: that level has spheres left
+        for (const SphereSpec& s : spheres) {
+            if (s.group == 1) ++count[static_cast<int>(std::lround((s.position.z - bottom) / h))];
+        }
+        return std::pair(count[0], count[1]);
+    };
+    CHECK(levels(1.0, 1.0) == std::pair(7, 3));
+    CHECK(levels(0.7, 1.0).first == 7);
+    CHECK(levels(0.5, 1.0).first == 19);
+    CHECK(levels(0.5, 0.999).first == 13);
+}
+
+TEST_CASE("a wavy fibre takes just the spheres that are near to it", "[packings]")
+{
+    Case c = fibre_case();
+    PartSpec &m = c.parts[0], &f = c.parts[1];
+    m.generator = "random_dense";
+    m.region = cylinder(8.0, 12.0);
+    m.size_ratio = 2.0;
+    m.solid_fraction = 0.5;
+    f.fibre.shape = "wavy";
+    f.fibre.from = {0, 0, -4};
+    f.fibre.to = {0, 0, 4};
+    f.fibre.amplitude = 0.6;
+    f.fibre.wavelength = 5.0;
+    const Vec3 shift{1.5, 0.5, 0};
+    f.copies = {shift};
+    const auto distance = [&](const Vec3& x) {  // from the sine itself, in steps of 0.4 mm
+        double least = 1e300;
+        for (int k = 0; k <= 20000; ++k) {
+            const double u = 8.0 * k / 20000;
+            const Vec3 p{0.6 * std::sin(2.0 * std::numbers::pi * u / 5.0), 0, u - 4.0};
+            least = std::min({least, norm2(x - p), norm2(x - p - shift)});
+        }
+        return std::sqrt(least);
+    };
+    std::vector<SphereSpec> with = generate_spheres(c);
+    std::erase_if(with, [](const SphereSpec& s) { return s.group == 1; });
+    c.parts.pop_back();
+    const std::vector<SphereSpec> without = generate_spheres(c);
+    std::size_t left = 0;
+    for (const SphereSpec& s : without) {
+        const double d = distance(s.position);
+        const bool stays = left < with.size() && with[left].position == s.position;
+        if (std::fabs(d - 1.0) > 1e-4)
+            CHECK(stays == (d > 1.0));  // chords of the sine are off by 1e-4 of its amplitude
+        left += stays ? 1 : 0;
+    }
+    CHECK(left == with.size());
+    CHECK(without.size() > with.size() + 40);
+}
