@@ -197,10 +197,8 @@ private:
         }
         if (given(path + ".orientation"))
             fail(path + ".orientation", "has no meaning here; it goes with kind = \"grains\"");
-        if ((p.generator == "chain" || file) && given(path + ".region")) {
-            fail(path + ".region",
-                 "has no meaning here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"");
-        }
+        if (p.generator == "chain" && given(path + ".region"))
+            fail(path + ".region", "has no meaning here; it goes with any generator but \"chain\"");
         if (given(path + ".inside") && right(path + ".inside")) host(p, path + ".inside");
         if (p.generator == "chain") chain(p, path);
         if (p.generator == "random_dense" && right(path + ".solid_fraction") && right(path + ".size_ratio")) {

@@ -378,8 +378,10 @@ void describe(V& v, PartSpec& s)
     v.table("region", s.region,
             {.required = placed,
              .used = {placed.holds || has_region},
-             .meaning = "where the centres of grains or spheres are; random_dense: what the spheres fill; a brazilian "
-                        "test takes the specimen's size from it"});
+             .meaning =
+                 "where the centres of grains or spheres are; random_dense: what the spheres fill; file: left out, all "
+                 "are taken; a brazilian "
+                 "test takes the specimen's size from it"});
     v("at_region_boundary", s.at_region_boundary,
       {.words = "keep | cut",
        .used = prisms,
