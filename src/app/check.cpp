@@ -44,12 +44,12 @@ int check_command(const Options& o)
     start_check(c, b);
     const ChosenStep s = choose_time_step(c, b.model, b.state);
     fmt::print("{}", to_toml(c));
-    int grains = 0;
-    for (int i = 0; i < b.state.bodies.size(); ++i) grains += b.state.bodies.inverse_mass[i] > 0.0 ? 1 : 0;
+    const BodyCounts n = count_bodies(b.model, b.state);
     fmt::print(
-        "\n# grains {}, wall bodies {}, interfaces {} with {} points, parallel bonds {}, candidate contacts {}\n",
-        grains, b.state.bodies.size() - grains, b.state.interfaces.size(), b.state.points.size(),
-        b.state.parallels.size(), b.state.contacts.size());
+        "\n# grains {}, spheres {}, wall bodies {}, interfaces {} with {} points, parallel bonds {}, sphere bonds {}, "
+        "candidate contacts {}\n",
+        n.grains, n.spheres, n.walls, b.state.interfaces.size(), b.state.points.size(), b.state.parallels.size(),
+        b.state.sphere_bonds.size(), b.state.contacts.size());
     fmt::print("# mean grain spacing {:.4g} m, mass {:.6g} kg\n", b.model.nominal_length,
                total_momentum(b.model, b.state).mass);
     fmt::print("# time step {:.4g} s; stability limit {:.4g} s, set by {}\n", s.dt, s.critical, s.limiter);

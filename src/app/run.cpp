@@ -108,9 +108,11 @@ int run_command(const Options& o)
     ResultFolder folder(out, o.force);
     folder.begin(facts, input_text, resolved);
     open_log(out, o);
-    spdlog::info("grainfrac {}: {} bodies, {} interfaces with {} points, {} parallel bonds, device {}, {} threads",
-                 GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
-                 built.state.parallels.size(), to_string(device), threads());
+    spdlog::info(
+        "grainfrac {}: {} bodies, {} interfaces with {} points, {} parallel bonds, {} bonds of spheres, device {}, {} "
+        "threads",
+        GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
+        built.state.parallels.size(), built.state.sphere_bonds.size(), to_string(device), threads());
     record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 
     watch_signals();

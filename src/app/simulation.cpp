@@ -352,10 +352,14 @@ private:
             if (f.failure_time[i] < 0.0) continue;
             (f.shear_share[i] < 0.5 * f.area[i] ? r.broken_bonds_tension : r.broken_bonds_shear) += 1;
         }
-        for (int i = 0; i < state_.parallels.size(); ++i) {
-            if (state_.parallels.cause[i] == static_cast<int>(BondCause::tension)) ++r.broken_bonds_tension;
-            if (state_.parallels.cause[i] == static_cast<int>(BondCause::shear)) ++r.broken_bonds_shear;
-        }
+        const auto count = [&](const auto& bonds) {
+            for (int i = 0; i < bonds.size(); ++i) {
+                if (bonds.cause[i] == static_cast<int>(BondCause::tension)) ++r.broken_bonds_tension;
+                if (bonds.cause[i] == static_cast<int>(BondCause::shear)) ++r.broken_bonds_shear;
+            }
+        };
+        count(state_.parallels);
+        count(state_.sphere_bonds);
         const std::int64_t broken = r.broken_bonds_tension + r.broken_bonds_shear;
         if (broken != broken_ || record_.rows.empty()) {
             const std::vector<std::int32_t> cluster = bonded_clusters(state_);

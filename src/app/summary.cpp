@@ -28,24 +28,17 @@ json vector_json(const Vec3& a)
 
 json counts(const Built& b)
 {
-    int grains = 0, walls = 0, spheres = 0, gripped = 0;
-    for (int i = 0; i < b.state.bodies.size(); ++i) {
-        const bool polyhedron = !b.model.grain_shapes[static_cast<std::size_t>(i)].faces.empty();
-        if (polyhedron) {
-            ++grains;
-            gripped += b.state.bodies.inverse_mass[i] == 0.0 ? 1 : 0;
-        } else {
-            ++(b.state.bodies.inverse_mass[i] == 0.0 ? walls : spheres);
-        }
-    }
-    return {{"grains", grains},
-            {"gripped_grains", gripped},
-            {"spheres", spheres},
+    const BodyCounts n = count_bodies(b.model, b.state);
+    return {{"grains", n.grains},
+            {"gripped_grains", n.gripped_grains},
+            {"spheres", n.spheres},
+            {"gripped_spheres", n.gripped_spheres},
             {"nodes", 0},
-            {"wall_bodies", walls},
+            {"wall_bodies", n.walls},
             {"interfaces", b.state.interfaces.size()},
             {"interface_points", b.state.points.size()},
             {"parallel_bonds", b.state.parallels.size()},
+            {"sphere_bonds", b.state.sphere_bonds.size()},
             {"bonds", b.state.bond_slots()},
             {"contact_pairs", b.state.contacts.size()}};
 }
@@ -191,6 +184,24 @@ json quasi_static_json(const Built& b, const RunRecord& record)
 
 }  // namespace
 
+BodyCounts count_bodies(const Model& model, const State& state)
+{
+    BodyCounts n;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        const int gripped = state.bodies.wall[i] >= 0 ? 1 : 0;
+        if (model.groups[static_cast<std::size_t>(state.bodies.group[i])].is_wall) {
+            ++n.walls;
+        } else if (is_sphere(model, state.bodies, i)) {
+            ++n.spheres;
+            n.gripped_spheres += gripped;
+        } else {
+            ++n.grains;
+            n.gripped_grains += gripped;
+        }
+    }
+    return n;
+}
+
 std::int64_t peak_memory()
 {
     rusage usage{};
@@ -241,9 +252,11 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
                      {"cleavage_looks_s", record.phases.looks},
                      {"splitting_s", record.phases.splitting},
                      {"steps_per_s", record.phases.steps > 0.0 ? steps / record.phases.steps : 0.0}};
-    if (b.state.points.size() > 0 && steps > 0.0) {
-        j["run_time"]["ns_per_interface_point_and_step"] = 1e9 * record.phases.steps / steps / b.state.points.size();
-    }
+    const auto cost = [&](const char* name, int number) {
+        if (number > 0 && steps > 0.0) j["run_time"][name] = 1e9 * record.phases.steps / steps / number;
+    };
+    cost("ns_per_interface_point_and_step", b.state.points.size());
+    cost("ns_per_sphere_bond_and_step", b.state.sphere_bonds.size());
     j["peak_memory_B"] = peak_memory();
     return j.dump(2) + "\n";
 }

@@ -1,73 +1,174 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generate/packings.h"
 
+#include "generate/fibre_line.h"
+#include "generate/lattice.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grainfrac {
 
 namespace {
 
-/// Hexagonal close packing about the centre of a cylinder along z: as many levels as round(height/h), a sphere on the
-/// axis in every second one.
-std::vector<Vec3> hcp_sites(const PartSpec& p)
+using Spheres = std::vector<SphereSpec>;
+
+/// Generators name keys of their own table; here these get their place in the file.
+template <class Generator>
+auto below(const std::string& path, const Generator& generate)
 {
-    const double d = p.diameter, h = std::sqrt(2.0 / 3.0) * d, R = 0.5 * p.region.diameter;
-    const int levels = std::max(1, static_cast<int>(std::lround(p.region.height / h)));
-    const int reach = static_cast<int>(R / d * 2.0 / std::sqrt(3.0)) + 2;
-    std::vector<Vec3> sites;
-    for (int k = 0; k < levels; ++k) {
-        const double z = (k - 0.5 * (levels - 1)) * h;
-        for (int j = -reach; j <= reach; ++j) {
-            for (int i = -2 * reach; i <= 2 * reach; ++i) {
-                Vec3 x{d * (i + 0.5 * j), d * std::sqrt(0.75) * j, z};
-                if (k % 2 != 0) x.y += d / std::sqrt(3.0);
-                if (std::hypot(x.x, x.y) <= R * (1.0 + 1e-12)) sites.push_back(p.region.center + x);
-            }
+    try {
+        return generate();
+    } catch (InputError& e) {
+        for (InputProblem& problem : e.problems) problem.key = path + '.' + problem.key;
+        throw;
+    }
+}
+
+/// The sphere that all of a part are copies of.
+SphereSpec prototype(const Case& c, std::size_t part)
+{
+    const PartSpec& p = c.parts[part];
+    SphereSpec s;
+    s.radius = 0.5 * p.diameter;
+    s.group = static_cast<std::int32_t>(part);
+    while (c.materials[static_cast<std::size_t>(s.material)].name != p.material) ++s.material;
+    s.velocity = p.velocity;
+    s.angular_velocity = p.angular_velocity;
+    return s;
+}
+
+/// The chain of a part and its copies, one after the other; `chains` counts those of all parts.
+Spheres chain_spheres(const PartSpec& p, const SphereSpec& model, std::int32_t& chains)
+{
+    const FibreNodes nodes = below("fibre", [&] { return fibre_nodes(p.fibre, p.fibre.spacing.value_or(p.diameter)); });
+    SphereSpec s = model;
+    s.section_radius = p.fibre.radius.value_or(0.0);
+    s.piece = p.fibre.radius ? nodes.piece : 0.0;
+    Spheres all;
+    for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
+        s.chain = chains++;
+        for (const Vec3& x : nodes.position) {
+            s.position = copy == 0 ? x : x + p.copies[copy - 1];
+            all.push_back(s);
         }
     }
-    return sites;
+    return all;
+}
+
+Spheres packed_spheres(const Case& c, std::size_t part)
+{
+    const PartSpec& p = c.parts[part];
+    const SphereRegion region(p.region);
+    SphereSpec s = prototype(c, part);
+    Spheres all;
+    const auto add = [&](const std::vector<Vec3>& sites) {
+        for (const Vec3& x : sites) {
+            s.position = x;
+            all.push_back(s);
+        }
+    };
+    if (p.generator == "hcp") add(hcp_sites(region, p.diameter, axis_index(p.lattice_axis)));
+    if (p.generator == "fcc") add(fcc_sites(region, p.diameter));
+    if (all.empty()) throw InputError("generator", "makes no spheres in this version");
+    return all;
+}
+
+std::size_t part_named(const Case& c, const std::string& name)
+{
+    const auto found = std::find_if(c.parts.begin(), c.parts.end(), [&](const PartSpec& p) { return p.name == name; });
+    return static_cast<std::size_t>(found - c.parts.begin());
+}
+
+/// The host's spheres in the region change part.
+Spheres take(const PartSpec& p, const SphereSpec& model, Spheres& host)
+{
+    const SphereRegion region(p.region);
+    Spheres taken;
+    std::erase_if(host, [&](const SphereSpec& s) {
+        if (!region.contains(s.position)) return false;
+        taken.push_back(model);
+        taken.back().position = s.position;
+        taken.back().radius = s.radius;
+        return true;
+    });
+    if (taken.empty()) throw InputError("region", fmt::format("no sphere of \"{}\" has its centre in it", p.inside));
+    if (host.empty()) throw InputError("region", fmt::format("takes all spheres of \"{}\"", p.inside));
+    return taken;
+}
+
+/// Whether one of the nodes is in the box around the centres of the host's spheres.
+bool reaches_into(const Spheres& nodes, std::size_t begin, std::size_t end, const Vec3& low, const Vec3& high)
+{
+    return std::any_of(nodes.begin() + static_cast<std::ptrdiff_t>(begin),
+                       nodes.begin() + static_cast<std::ptrdiff_t>(end), [&](const SphereSpec& s) {
+                           bool in = true;
+                           for (int k = 0; k < 3; ++k) in = in && s.position[k] >= low[k] && s.position[k] <= high[k];
+                           return in;
+                       });
+}
+
+/// The host's spheres whose centre is nearer to the line of a chain than the fibre's radius go.
+void make_room(const PartSpec& p, const Spheres& nodes, Spheres& host)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec3 low{infinity, infinity, infinity}, high = -low;
+    for (const SphereSpec& s : host) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], s.position[k] - s.radius);
+            high[k] = std::max(high[k], s.position[k] + s.radius);
+        }
+    }
+    const double radius = p.fibre.radius.value_or(0.5 * p.diameter);
+    const std::vector<Vec3> line = fibre_polyline(p.fibre);
+    const std::size_t links = nodes.size() / (p.copies.size() + 1);
+    for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
+        if (!reaches_into(nodes, copy * links, (copy + 1) * links, low, high)) {
+            const std::string key = copy == 0 ? std::string("fibre") : fmt::format("copies[{}]", copy - 1);
+            throw InputError(key, fmt::format("this fibre is outside of \"{}\", whose spheres lie between ({:.6g}, "
+                                              "{:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) m",
+                                              p.inside, low.x, low.y, low.z, high.x, high.y, high.z));
+        }
+        const Vec3 shift = copy == 0 ? Vec3{} : p.copies[copy - 1];
+        // what lies on the fibre's surface, as sites of a lattice do, stays whatever the round-off
+        std::erase_if(host, [&](const SphereSpec& s) {
+            return distance_to_polyline(s.position - shift, line) < radius * (1.0 - 1e-9);
+        });
+    }
+    if (host.empty()) {
+        throw InputError(p.fibre.radius ? "fibre.radius" : "diameter",
+                         fmt::format("the fibre takes the place of all spheres of \"{}\"", p.inside));
+    }
 }
 
 }  // namespace
 
 std::vector<SphereSpec> generate_spheres(const Case& c)
 {
-    std::vector<SphereSpec> all;
-    for (std::size_t k = 0; k < c.parts.size(); ++k) {
-        const PartSpec& p = c.parts[k];
-        if (p.kind != "spheres") continue;
-        SphereSpec s;
-        s.radius = 0.5 * p.diameter;
-        s.group = static_cast<std::int32_t>(k);
-        while (c.materials[static_cast<std::size_t>(s.material)].name != p.material) ++s.material;
-        s.velocity = p.velocity;
-        s.angular_velocity = p.angular_velocity;
-        if (p.generator == "chain") {
-            const FibreSpec& f = p.fibre;
-            const double spacing = f.spacing.value_or(p.diameter), length = norm(f.to - f.from);
-            const int n = static_cast<int>(std::lround(length / spacing)) + 1;
-            for (int i = 0; i < n; ++i) {
-                s.position = f.from + (static_cast<double>(i) / (n - 1)) * (f.to - f.from);
-                if (f.radius) s.section_radius = *f.radius;
-                s.piece = length / (n - 1);
-                all.push_back(s);
-            }
-            if (p.inside.empty()) continue;
-            const Vec3 t = normalized(f.to - f.from);
-            std::erase_if(all, [&](const SphereSpec& x) {
-                return c.parts[static_cast<std::size_t>(x.group)].name == p.inside &&
-                       norm(tangential(x.position - f.from, t)) < *f.radius * (1.0 - 1e-9);
-            });
-        } else {
-            for (const Vec3& x : hcp_sites(p)) {
-                s.position = x;
-                all.push_back(s);
-            }
+    std::vector<Spheres> of_part(c.parts.size());
+    std::int32_t chains = 0;
+    const auto for_parts = [&](const auto& generate) {
+        for (std::size_t k = 0; k < c.parts.size(); ++k) {
+            if (c.parts[k].kind == "spheres") below(fmt::format("parts[{}]", k), [&] { generate(k, c.parts[k]); });
         }
-    }
+    };
+    for_parts([&](std::size_t k, const PartSpec& p) {
+        if (p.generator == "chain")
+            of_part[k] = chain_spheres(p, prototype(c, k), chains);
+        else if (p.generator != "taken")
+            of_part[k] = packed_spheres(c, k);
+    });
+    for_parts([&](std::size_t k, const PartSpec& p) {
+        if (p.generator == "taken") of_part[k] = take(p, prototype(c, k), of_part[part_named(c, p.inside)]);
+    });
+    for_parts([&](std::size_t k, const PartSpec& p) {
+        if (p.generator == "chain" && !p.inside.empty()) make_room(p, of_part[k], of_part[part_named(c, p.inside)]);
+    });
+    Spheres all;
+    for (const Spheres& spheres : of_part) all.insert(all.end(), spheres.begin(), spheres.end());
     return all;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace grainfrac {
@@ -37,6 +38,17 @@ Outline closed(const std::vector<Vec3>& polygon)
         outline.y.push_back(polygon[k % polygon.size()].y);
     }
     return outline;
+}
+
+Outline circle(const Vec3& center, double radius)
+{
+    constexpr int corners = 24;
+    std::vector<Vec3> polygon;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / corners;
+        polygon.push_back(center + radius * Vec3{std::cos(angle), std::sin(angle), 0.0});
+    }
+    return closed(polygon);
 }
 
 /// Convex hull of the points' projections on xy (Andrew's monotone chain), counter-clockwise.
@@ -92,8 +104,19 @@ Picture outlines(const Model& model, const State& state)
     const Bodies& bodies = state.bodies;
     Picture picture;
     Range depth = picture.x;
-    std::vector<int> grains;
+    std::vector<int> grains, spheres;
     for (int i = 0; i < bodies.size(); ++i) {
+        if (is_sphere(model, bodies, i)) {
+            spheres.push_back(i);
+            const Vec3 x = bodies.position[i];
+            const double r = model.shapes.radius[bodies.shape[i]];
+            for (const double side : {-r, r}) {
+                picture.x.add(x.x + side);
+                picture.y.add(x.y + side);
+                depth.add(x.z + side);
+            }
+            continue;
+        }
         if (bodies.wall[i] >= 0) {
             picture.walls.push_back(
                 closed(hull_xy(placed(shape_surface(model.shapes, bodies.shape[i]).points, bodies, i))));
@@ -114,6 +137,10 @@ Picture outlines(const Model& model, const State& state)
         const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(i)];
         const std::vector<Vec3> cut = section(placed(shape.vertices, bodies, i), shape.faces, z);
         if (!cut.empty()) picture.grains.push_back(closed(cut));
+    }
+    for (const int i : spheres) {
+        const double r = model.shapes.radius[bodies.shape[i]], h = z - bodies.position[i].z;
+        if (std::fabs(h) < r) picture.grains.push_back(circle(bodies.position[i], std::sqrt(r * r - h * h)));
     }
     return picture;
 }

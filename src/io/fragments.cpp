@@ -36,9 +36,10 @@ Vec3 ellipsoid_axes(double mass, const Mat3& moments)
     return {axis(m.x), axis(m.y), axis(m.z)};
 }
 
-bool is_grain(const Model& model, const Bodies& bodies, int i)
+/// Grain or sphere.
+bool is_piece(const Model& model, const Bodies& bodies, int i)
 {
-    return bodies.wall[i] < 0 || !model.grain_shapes.at(static_cast<std::size_t>(i)).faces.empty();
+    return !model.groups.at(static_cast<std::size_t>(bodies.group[i])).is_wall;
 }
 
 /// Volume and surface of the sharp polyhedron; of a body without one, those of the ball of its mass.
@@ -89,7 +90,7 @@ std::vector<Fragment> collect_fragments(const Model& model, const State& state, 
     const Bodies& bodies = state.bodies;
     std::vector<Fragment> fragments;
     for (int i = 0; i < bodies.size(); ++i) {
-        if (!is_grain(model, bodies, i)) continue;
+        if (!is_piece(model, bodies, i)) continue;
         Fragment f;
         f.id = bodies.id[i];
         f.parent = bodies.parent[i];
@@ -114,7 +115,7 @@ std::vector<Cluster> collect_clusters(const Model& model, const State& state, co
     const auto each = [&](auto&& visit) {
         for (int i = 0; i < bodies.size(); ++i) {
             const std::int32_t number = fields.cluster.at(static_cast<std::size_t>(i));
-            if (bodies.wall[i] < 0 && number >= 0) visit(i, number);
+            if (number >= 0) visit(i, number);
         }
     };
     each([&](int i, std::int32_t number) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/hdf5_results.h"
 
-#include "io/bond_faces.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,18 +51,20 @@ void append_vec3_column(Hdf5Growing& column, const std::vector<Entry>& entries, 
     append_rows(column, values, 3);
 }
 
-/// Bonds by the ids of their grains: an order that does not change when bodies are renumbered. Entry < interfaces: an
-/// interface, else a parallel bond.
-std::vector<int> bond_order(const State& state)
+using IdPair = std::pair<std::int32_t, std::int32_t>;
+
+/// Ids of the bodies of a bond, smaller one first.
+IdPair ids_of(const State& state, const BondFacts& bond)
 {
-    const int interfaces = state.interfaces.size();
-    std::vector<std::pair<std::int32_t, std::int32_t>> key(static_cast<std::size_t>(state.bond_slots()));
-    for (int i = 0; i < state.bond_slots(); ++i) {
-        const bool face = i < interfaces;
-        const int a = face ? state.interfaces.a[i] : state.parallels.a[i - interfaces];
-        const int b = face ? state.interfaces.b[i] : state.parallels.b[i - interfaces];
-        key[static_cast<std::size_t>(i)] = std::minmax({state.bodies.id[a], state.bodies.id[b]});
-    }
+    return std::minmax({state.bodies.id[bond.a], state.bodies.id[bond.b]});
+}
+
+/// Slots of the bonds by the ids of their bodies: an order that does not change when bodies are renumbered.
+std::vector<int> bond_order(const State& state, const std::vector<BondFacts>& bonds)
+{
+    std::vector<IdPair> key;
+    key.reserve(bonds.size());
+    for (const BondFacts& bond : bonds) key.push_back(ids_of(state, bond));
     std::vector<int> order(key.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
@@ -101,6 +101,7 @@ void Hdf5Results::make_snapshots()
     s.time = file_.make_growing<double>("/snapshots/time", 1, {table_chunk}, "s", false);
     s.step = file_.make_growing<std::int64_t>("/snapshots/step", 1, {table_chunk}, "1", false);
     s.grain_id = file_.make_growing<std::int32_t>("/snapshots/grain_id", 1, {grain_chunk}, "1", false);
+    s.radius = file_.make_growing<double>("/snapshots/radius", 1, {grain_chunk}, "m", false);
     const auto field = [&](const char* name, hsize_t width, const char* unit) {
         return file_.make_growing<double>(std::string("/snapshots/") + name, 2, {1, grain_chunk, width}, unit, true);
     };
@@ -193,14 +194,11 @@ void Hdf5Results::append_snapshot(const Model& model, const State& state, const 
                                   const std::vector<CrackFace>& cracks)
 {
     const hsize_t snapshot = snapshots_.time.rows();
-    append_grains(state, fields);
-    const std::vector<BondRow> rows = update_bonds(state);
+    append_grains(model, state, fields);
+    const std::vector<BondFacts> bonds = all_bond_facts(state);
+    const std::vector<BondRow> rows = update_bonds(state, bonds);
     std::vector<double> damage(bond_rows_.size(), std::numeric_limits<double>::quiet_NaN());
-    for (const BondRow& r : rows) {
-        const int interfaces = state.interfaces.size();
-        damage[r.row] = r.bond < interfaces ? state.interfaces.damage[r.bond]
-                                            : (state.parallels.cause[r.bond - interfaces] != 0 ? 1.0 : 0.0);
-    }
+    for (const BondRow& r : rows) damage[r.row] = bonds[static_cast<std::size_t>(r.slot)].damage;
     bonds_.damage.write({snapshot, 0}, {1, damage.size()}, damage);
     bonds_.damage.flush();
     append_cracks(cracks);
@@ -211,19 +209,23 @@ void Hdf5Results::append_snapshot(const Model& model, const State& state, const 
     last_step_ = state.step;
 }
 
-void Hdf5Results::append_grains(const State& state, const SnapshotFields& fields)
+void Hdf5Results::append_grains(const Model& model, const State& state, const SnapshotFields& fields)
 {
     const Bodies& bodies = state.bodies;
     std::vector<std::pair<std::int32_t, int>> grains;  // id, body
     for (int i = 0; i < bodies.size(); ++i) {
-        if (bodies.wall[i] < 0) grains.emplace_back(bodies.id[i], i);
+        if (bodies.wall[i] < 0 || is_sphere(model, bodies, i)) grains.emplace_back(bodies.id[i], i);
     }
     std::sort(grains.begin(), grains.end());
     std::vector<std::int32_t> fresh;
+    std::vector<double> radius;
     for (const auto& [id, body] : grains) {
-        if (grain_rows_.emplace(id, grain_rows_.size()).second) fresh.push_back(id);
+        if (!grain_rows_.emplace(id, grain_rows_.size()).second) continue;
+        fresh.push_back(id);
+        radius.push_back(is_sphere(model, bodies, body) ? model.shapes.radius[bodies.shape[body]] : 0.0);
     }
     append_rows(snapshots_.grain_id, fresh);
+    append_rows(snapshots_.radius, radius);
 
     const hsize_t n = grain_rows_.size(), snapshot = snapshots_.time.rows();
     constexpr double absent = std::numeric_limits<double>::quiet_NaN();
@@ -263,26 +265,20 @@ void Hdf5Results::append_grains(const State& state, const SnapshotFields& fields
     store(snapshots_.cluster, cluster, 0);
 }
 
-void Hdf5Results::write_bond_table(const State& state, const std::vector<int>& order)
+void Hdf5Results::write_bond_table(const State& state, const std::vector<BondFacts>& bonds,
+                                   const std::vector<int>& slots)
 {
-    const int interfaces = state.interfaces.size();
     std::vector<std::int32_t> kind, grain_a, grain_b;
     std::vector<double> area, normal, normal_stiffness, shear_stiffness;
-    const auto add = [&](const auto& bonds, int i, const BondFace& face, int of_kind) {
-        kind.push_back(of_kind);
-        grain_a.push_back(state.bodies.id[bonds.a[i]]);
-        grain_b.push_back(state.bodies.id[bonds.b[i]]);
-        area.push_back(face.area);
-        append_vec3(normal, face.normal);
-        normal_stiffness.push_back(bonds.normal_stiffness[i]);
-        shear_stiffness.push_back(bonds.shear_stiffness[i]);
-    };
-    for (const int i : order) {
-        if (i < interfaces) {
-            add(state.interfaces, i, interface_face(state, i), 0);
-        } else {
-            add(state.parallels, i - interfaces, parallel_face(state, i - interfaces), 1);
-        }
+    for (const int slot : slots) {
+        const BondFacts& bond = bonds[static_cast<std::size_t>(slot)];
+        kind.push_back(static_cast<std::int32_t>(bond.kind));
+        grain_a.push_back(state.bodies.id[bond.a]);
+        grain_b.push_back(state.bodies.id[bond.b]);
+        area.push_back(bond.area);
+        append_vec3(normal, bond_face(state, slot).normal);
+        normal_stiffness.push_back(bond.normal_stiffness);
+        shear_stiffness.push_back(bond.shear_stiffness);
     }
     append_rows(bonds_.kind, kind);
     append_rows(bonds_.grain_a, grain_a);
@@ -294,31 +290,25 @@ void Hdf5Results::write_bond_table(const State& state, const std::vector<int>& o
 }
 
 /// Rows of the bonds that there are, new ones at the end; a bond whose grain was split keeps its row as it was last.
-std::vector<Hdf5Results::BondRow> Hdf5Results::update_bonds(const State& state)
+std::vector<Hdf5Results::BondRow> Hdf5Results::update_bonds(const State& state, const std::vector<BondFacts>& bonds)
 {
-    const int interfaces = state.interfaces.size();
     std::vector<BondRow> rows;
     std::vector<int> fresh;
-    std::map<std::pair<std::int32_t, std::int32_t>, int> seen;
-    for (const int i : bond_order(state)) {
-        const bool face = i < interfaces;
-        const int a = face ? state.interfaces.a[i] : state.parallels.a[i - interfaces];
-        const int b = face ? state.interfaces.b[i] : state.parallels.b[i - interfaces];
-        const std::pair<std::int32_t, std::int32_t> pair = std::minmax({state.bodies.id[a], state.bodies.id[b]});
+    std::map<IdPair, int> seen;
+    for (const int slot : bond_order(state, bonds)) {
+        const IdPair pair = ids_of(state, bonds[static_cast<std::size_t>(slot)]);
         const auto [found, is_new] =
             bond_rows_.emplace(std::tuple{pair.first, pair.second, seen[pair]++}, bond_rows_.size());
-        if (is_new) fresh.push_back(i);
-        rows.push_back({i, found->second});
+        if (is_new) fresh.push_back(slot);
+        rows.push_back({slot, found->second});
     }
-    write_bond_table(state, fresh);
+    write_bond_table(state, bonds, fresh);
     bond_failure_.resize(bond_rows_.size(), -1.0);
     bond_cause_.resize(bond_rows_.size(), 0);
     for (const BondRow& r : rows) {
-        const bool face = r.bond < interfaces;
-        bond_failure_[r.row] =
-            face ? state.interfaces.failure_time[r.bond] : state.parallels.failure_time[r.bond - interfaces];
-        bond_cause_[r.row] = static_cast<std::int32_t>(face ? interface_cause(state.interfaces, r.bond)
-                                                            : parallel_cause(state.parallels, r.bond - interfaces));
+        const BondFacts& bond = bonds[static_cast<std::size_t>(r.slot)];
+        bond_failure_[r.row] = bond.failure_time;
+        bond_cause_[r.row] = static_cast<std::int32_t>(bond.cause);
     }
     bonds_.failure_time.write({0}, {bond_failure_.size()}, bond_failure_);
     bonds_.failure_time.flush();
@@ -387,7 +377,7 @@ void Hdf5Results::finish(const Model& model, const State& state, const SnapshotF
     append_table(fragments_, collect_fragments(model, state, fields));
     if (last_step_ == state.step) return;
     constexpr std::int32_t after_the_last = -1;
-    update_bonds(state);
+    update_bonds(state, all_bond_facts(state));
     append_cracks(cracks);
     append_clusters(collect_clusters(model, state, fields), state, after_the_last);
 }

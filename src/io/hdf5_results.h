@@ -3,6 +3,7 @@
 // (schema: docs/output.md).
 #pragma once
 
+#include "io/bond_faces.h"
 #include "io/fragments.h"
 #include "io/hdf5_file.h"
 #include "io/results.h"
@@ -35,13 +36,13 @@ private:
     void make_bonds();
     void make_cracks();
     void make_tables();
-    void append_grains(const State& state, const SnapshotFields& fields);
-    void write_bond_table(const State& state, const std::vector<int>& order);
+    void append_grains(const Model& model, const State& state, const SnapshotFields& fields);
+    void write_bond_table(const State& state, const std::vector<BondFacts>& bonds, const std::vector<int>& slots);
     struct BondRow {
-        int bond = 0;  // interfaces first, then parallel bonds
+        int slot = 0;
         hsize_t row = 0;
     };
-    std::vector<BondRow> update_bonds(const State& state);
+    std::vector<BondRow> update_bonds(const State& state, const std::vector<BondFacts>& bonds);
     void append_cracks(const std::vector<CrackFace>& cracks);
     /// Rows of one struct as datasets of `group`, one for each of its columns.
     using Table = std::map<std::string, Hdf5Growing>;
@@ -54,7 +55,7 @@ private:
     Hdf5File file_;
     Hdf5Growing history_;
     struct {
-        Hdf5Growing time, step, grain_id, position, orientation, velocity, stress, cluster, damage, cleavage;
+        Hdf5Growing time, step, grain_id, radius, position, orientation, velocity, stress, cluster, damage, cleavage;
     } snapshots_;
     struct {
         Hdf5Growing kind, grain_a, grain_b, area, normal, normal_stiffness, shear_stiffness, damage, failure_time,

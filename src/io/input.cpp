@@ -302,6 +302,12 @@ private:
         member.assign(value.children.size(), {});
         for (std::size_t i = 0; i < member.size(); ++i) get_element(value, path, i, member[i], facts);
     }
+    void get(const Node& value, const std::string& path, std::vector<Vec3>& member, const Facts& facts)
+    {
+        if (!is_array_of(value, path, value.children.size(), expected(member, facts))) return;
+        member.assign(value.children.size(), {});
+        for (std::size_t i = 0; i < member.size(); ++i) get_element(value, path, i, member[i], facts);
+    }
     void get(const Node& value, const std::string& path, std::array<std::string, 2>& member, const Facts& facts)
     {
         if (!is_array_of(value, path, 2, expected(member, facts))) return;
@@ -399,7 +405,8 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
     }
     for (PartSpec& part : c.parts) {
         OrientationSpec& o = part.orientation;
-        if (o.choices.empty() && o.random.empty() && o.file.empty()) o.choices = {0.0};  // aligned with the axes
+        const bool none = o.choices.empty() && o.random.empty() && o.file.empty();
+        if (none && part.kind == "grains") o.choices = {0.0};  // aligned with the axes
     }
     return c;
 }

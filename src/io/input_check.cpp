@@ -2,6 +2,7 @@
 #include "io/input_check.h"
 
 #include "generate/crystal.h"
+#include "generate/random_packing.h"
 #include "io/input_document.h"
 
 #include <fmt/format.h>
@@ -167,6 +168,7 @@ private:
         }
         if (given(path + ".file") && p.file.empty() && right(path + ".file")) fail(path + ".file", "must not be empty");
         orientation(p.orientation, path + ".orientation");
+        if (right(path + ".kind") && right(path + ".generator")) spheres_or_grains(p, path);
 
         if (p.dilation_radius && p.generator == "hexagonal_prisms" && right(path + ".dilation_radius")) {
             const double rho = *p.dilation_radius, inradius = 0.5 * std::min(std::sqrt(3.0) * p.side, p.thickness);
@@ -179,6 +181,84 @@ private:
                         "must be <= {:.6g} m, a third of the inradius of the prism (side {:.6g} m, thickness {:.6g} m)",
                         inradius / 3.0, p.side, p.thickness));
             }
+        }
+    }
+
+    /// What goes with only one kind of part.
+    void spheres_or_grains(const PartSpec& p, const std::string& path)
+    {
+        const bool prisms = p.generator == "hexagonal_prisms", file = p.generator == "file";
+        if (p.kind == "grains") {
+            if (!prisms && !file)
+                fail(path + ".generator", "must be one of \"hexagonal_prisms\", \"file\" with kind = \"grains\"");
+            if (p.region.shape == "sphere" && right(path + ".region.shape"))
+                fail(path + ".region.shape",
+                     "must be one of \"box\", \"beam\", \"cylinder\", \"disc\" with kind = \"grains\"");
+            return;
+        }
+        if (prisms && given(path + ".generator")) {
+            fail(path + ".generator",
+                 "must be one of \"hcp\", \"fcc\", \"random_dense\", \"chain\", \"taken\", \"file\" with kind = "
+                 "\"spheres\"");
+        }
+        if (given(path + ".orientation"))
+            fail(path + ".orientation", "has no meaning here; it goes with kind = \"grains\"");
+        if ((p.generator == "chain" || file) && given(path + ".region")) {
+            fail(path + ".region",
+                 "has no meaning here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"");
+        }
+        if (given(path + ".inside") && right(path + ".inside")) host(p, path + ".inside");
+        if (p.generator == "chain") chain(p, path);
+        if (p.generator == "random_dense" && right(path + ".solid_fraction") && right(path + ".size_ratio")) {
+            const double most = densest_random_packing(p.size_ratio);
+            if (p.solid_fraction > most) {
+                fail(path + ".solid_fraction",
+                     fmt::format("must be <= {:.4g}, random close packing at size_ratio = {}; less beside walls", most,
+                                 p.size_ratio));
+            }
+        }
+    }
+
+    /// `inside` names a packing; what stands on a line or was taken itself has no room to give.
+    void host(const PartSpec& p, const std::string& key)
+    {
+        std::vector<std::string> hosts;
+        for (const PartSpec& other : c_.parts) {
+            if (&other != &p && other.kind == "spheres" && other.generator != "chain" && other.generator != "taken")
+                hosts.push_back(other.name);
+        }
+        if (std::find(hosts.begin(), hosts.end(), p.inside) == hosts.end()) {
+            fail(key,
+                 "no other part of this name has kind = \"spheres\" and generator = \"hcp\", \"fcc\", "
+                 "\"random_dense\" or \"file\"; " +
+                     choice(p.inside, hosts));
+        }
+    }
+
+    void chain(const PartSpec& p, const std::string& path)
+    {
+        const FibreSpec& f = p.fibre;
+        const std::string fibre = path + ".fibre", points = fibre + ".points", sideways = fibre + ".sideways";
+        if (given(fibre) && right(fibre)) {
+            if (f.shape == "points") {
+                if (f.points.size() < 2)
+                    fail(points, fmt::format("has {} points; must have at least 2", f.points.size()));
+                for (std::size_t i = 1; i < f.points.size(); ++i) {
+                    if (f.points[i] == f.points[i - 1]) fail(joined(points, i), "is the same point as the one before");
+                }
+            } else if (f.from == f.to) {
+                fail(fibre + ".to", "must not be the same point as from");
+            } else if (f.shape != "straight" && norm2(cross(f.sideways, f.to - f.from)) == 0.0) {
+                fail(given(sideways) ? sideways : fibre,
+                     fmt::format("{}must not be zero or along the fibre", given(sideways) ? "" : "sideways: "));
+            }
+        }
+        for (std::size_t i = 0; i < p.copies.size() && right(path + ".copies"); ++i) {
+            const bool again = std::find(p.copies.begin(), p.copies.begin() + static_cast<std::ptrdiff_t>(i),
+                                         p.copies[i]) != p.copies.begin() + static_cast<std::ptrdiff_t>(i);
+            if (norm2(p.copies[i]) == 0.0 || again)
+                fail(joined(path + ".copies", i),
+                     again ? "is listed already" : "must not be zero: that is the chain itself");
         }
     }
 

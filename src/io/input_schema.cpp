@@ -103,6 +103,10 @@ std::string expected(const std::vector<std::string>&, const Facts& facts)
     if (facts.words[0] != '\0') return "an array of texts, each " + expected(std::string(), facts);
     return "an array of texts such as [\"{10-10}\"]";
 }
+std::string expected(const std::vector<Vec3>&, const Facts& facts)
+{
+    return fmt::format("an array of points such as [[{0}, {0}, {0}]]", example(facts));
+}
 std::string expected(const std::array<std::string, 2>&, const Facts&)
 {
     return "an array of 2 names such as [\"*\", \"*\"]";

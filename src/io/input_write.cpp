@@ -44,6 +44,7 @@ std::string toml_text(const std::string& s)
     }
     return out + '"';
 }
+std::string toml_text(const Vec3& v);
 template <class Range>
 std::string toml_list(const Range& values)
 {
@@ -60,6 +61,10 @@ std::string toml_text(const std::vector<double>& v)
     return toml_list(v);
 }
 std::string toml_text(const std::vector<std::string>& v)
+{
+    return toml_list(v);
+}
+std::string toml_text(const std::vector<Vec3>& v)
 {
     return toml_list(v);
 }
@@ -177,6 +182,10 @@ std::string kind(const std::vector<std::string>& v, const Facts& f)
 {
     static_cast<void>(v);
     return std::string_view(f.words).empty() ? "list of texts" : "list of words";
+}
+std::string kind(const std::vector<Vec3>&, const Facts& f)
+{
+    return "list of " + kind(Vec3{}, f);
 }
 std::string kind(const std::array<std::string, 2>&, const Facts&)
 {

@@ -22,6 +22,7 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -130,6 +131,15 @@ std::vector<int> grain_rows(const Model& model, const State& state)
     return rows;
 }
 
+std::vector<int> sphere_rows(const Model& model, const State& state)
+{
+    std::vector<int> rows;
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (is_sphere(model, state.bodies, i)) rows.push_back(i);
+    }
+    return rows;
+}
+
 void add_grain_cell(vtkUnstructuredGrid* grid, vtkPoints* points, const Polyhedron& shape, const Vec3& position,
                     const Quat& orientation)
 {
@@ -147,7 +157,7 @@ void add_grain_cell(vtkUnstructuredGrid* grid, vtkPoints* points, const Polyhedr
                          static_cast<vtkIdType>(shape.faces.size()), faces.data());
 }
 
-void add_grain_identity(vtkFieldData* data, const Model& model, const State& state, const SnapshotFields& fields,
+void add_grain_identity(vtkFieldData* data, const State& state, const SnapshotFields& fields,
                         const std::vector<int>& rows)
 {
     const Bodies& bodies = state.bodies;
@@ -163,18 +173,32 @@ void add_grain_identity(vtkFieldData* data, const Model& model, const State& sta
     add_numbers(data, "K_II", rows, [&](int i) { return cleavage(i).worst.K_II; });
     add_integers(data, "cleavage_family", rows, [&](int i) { return cleavage(i).family; });
     add_vectors(data, "cleavage_normal", rows, [&](int i) { return cleavage(i).plane.normal; });
-    add_integers(data, "material", rows,
-                 [&](int i) { return model.groups.at(static_cast<std::size_t>(bodies.group[i])).material; });
-    add_integers(data, "cluster", rows, [&](int i) { return fields.cluster.at(static_cast<std::size_t>(i)); });
     add_columns<vtkDoubleArray, 4>(data, "crystal_orientation", rows, [&](int i) {
         const Quat q = bodies.orientation[i] * bodies.crystal[i];
         return std::array<double, 4>{q.w, q.x, q.y, q.z};
     });
+}
+
+/// What grains and spheres have in common.
+void add_body_identity(vtkFieldData* data, const Model& model, const State& state, const SnapshotFields& fields,
+                       const std::vector<int>& rows)
+{
+    const Bodies& bodies = state.bodies;
+    add_integers(data, "material", rows,
+                 [&](int i) { return model.groups.at(static_cast<std::size_t>(bodies.group[i])).material; });
+    add_integers(data, "cluster", rows, [&](int i) { return fields.cluster.at(static_cast<std::size_t>(i)); });
     const std::vector<double> damage = mean_bond_damage(state);
     add_numbers(data, "damage", rows, [&](int i) { return damage[static_cast<std::size_t>(i)]; });
 }
 
-void add_grain_motion(vtkFieldData* data, const Bodies& bodies, const std::vector<int>& rows)
+void add_material_names(vtkDataObject* object, const Model& model)
+{
+    std::vector<std::string> names;
+    for (const Material& material : model.materials) names.push_back(material.name);
+    add_names(object, "material_names", names);
+}
+
+void add_body_motion(vtkFieldData* data, const Bodies& bodies, const std::vector<int>& rows)
 {
     add_vectors(data, "velocity", rows, [&](int i) { return bodies.velocity[i]; });
     add_vectors(data, "angular_velocity", rows, [&](int i) { return bodies.angular_velocity[i]; });
@@ -207,7 +231,7 @@ double von_mises(const Mat3& s)
     return std::sqrt(0.5 * (d0 * d0 + d1 * d1 + d2 * d2) + 3.0 * (xy * xy + yz * yz + xz * xz));
 }
 
-void add_grain_stress(vtkFieldData* data, const std::vector<Mat3>& stress, const std::vector<int>& rows)
+void add_body_stress(vtkFieldData* data, const std::vector<Mat3>& stress, const std::vector<int>& rows)
 {
     const auto of = [&](int i) -> const Mat3& { return stress.at(static_cast<std::size_t>(i)); };
     add_columns<vtkDoubleArray, 6>(data, "stress", rows, [&](int i) {
@@ -226,7 +250,23 @@ void add_grain_stress(vtkFieldData* data, const std::vector<Mat3>& stress, const
                 [&](int i) { return principal[static_cast<std::size_t>(i)].direction; });
 }
 
-// ---- polygons
+// ---- points and polygons
+
+/// A vertex at `place(row)` for each row; its fields go on the points, where ParaView's glyphs look for them.
+template <class Place>
+void add_vertices(vtkPolyData* cloud, const std::vector<int>& rows, Place&& place)
+{
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> vertices;
+    for (const int i : rows) {
+        vertices->InsertNextCell(1);
+        vertices->InsertCellPoint(points->GetNumberOfPoints());
+        add_point(points, place(i));
+    }
+    cloud->SetPoints(points);
+    cloud->SetVerts(vertices);
+}
 
 void add_polygon(vtkPoints* points, vtkCellArray* polygons, const std::vector<Vec3>& polygon)
 {
@@ -237,57 +277,13 @@ void add_polygon(vtkPoints* points, vtkCellArray* polygons, const std::vector<Ve
     }
 }
 
-/// Mean traction that b exerts on a, from the force in the bond's slot (on b) [Pa].
-Vec3 mean_traction(const State& state, int slot, double area)
+/// Slots in the order of the cells of the bond layer: lines come before polygons in VTK's numbering.
+std::vector<int> bond_cells(const std::vector<BondFacts>& bonds)
 {
-    if (slot >= state.slots.size() || !(area > 0.0)) return {};
-    return -state.slots.force[slot] / area;
-}
-
-/// Row i of the bond layer: interfaces first, then parallel bonds.
-struct BondRow {
-    BondFace face;
-    int grain_a = 0, grain_b = 0, kind = 0;
-    BondStage stage = BondStage::whole;
-    CrackCause cause = CrackCause::none;
-    double damage = 0.0, stored_energy = 0.0, fracture_work = 0.0, failure_time = -1.0;
-    Vec3 traction;
-};
-
-std::vector<BondRow> bond_rows(const State& state)
-{
-    const InterfaceBonds& interfaces = state.interfaces;
-    const ParallelBonds& parallels = state.parallels;
-    std::vector<BondRow> rows(static_cast<std::size_t>(state.bond_slots()));
-    for (int i = 0; i < interfaces.size(); ++i) {
-        BondRow& row = rows[static_cast<std::size_t>(i)];
-        row.face = interface_face(state, i);
-        row.grain_a = state.bodies.id[interfaces.a[i]];
-        row.grain_b = state.bodies.id[interfaces.b[i]];
-        row.stage = interface_stage(interfaces, i);
-        row.cause = interface_cause(interfaces, i);
-        row.damage = interfaces.damage[i];
-        row.stored_energy = interfaces.stored_energy[i];
-        row.fracture_work = interfaces.fracture_work[i];
-        row.failure_time = interfaces.failure_time[i];
-        row.traction = mean_traction(state, i, row.face.area);
-    }
-    for (int i = 0; i < parallels.size(); ++i) {
-        const int slot = interfaces.size() + i;
-        BondRow& row = rows[static_cast<std::size_t>(slot)];
-        row.face = parallel_face(state, i);
-        row.grain_a = state.bodies.id[parallels.a[i]];
-        row.grain_b = state.bodies.id[parallels.b[i]];
-        row.kind = 1;
-        row.stage = parallel_stage(parallels, i);
-        row.cause = parallel_cause(parallels, i);
-        row.damage = row.stage == BondStage::whole ? 0.0 : 1.0;
-        row.stored_energy = parallels.stored_energy[i];
-        row.fracture_work = parallels.fracture_work[i];
-        row.failure_time = parallels.failure_time[i];
-        row.traction = mean_traction(state, slot, row.face.area);
-    }
-    return rows;
+    std::vector<int> slots = all_rows(bonds.size());
+    std::stable_partition(slots.begin(), slots.end(),
+                          [&](int s) { return bonds[static_cast<std::size_t>(s)].kind == BondKind::sphere; });
+    return slots;
 }
 
 std::vector<int> active_contacts(const Contacts& contacts)
@@ -314,44 +310,94 @@ void write_grains(const std::filesystem::path& path, const Model& model, const S
     }
     grid->SetPoints(points);
     vtkFieldData* data = grid->GetCellData();
-    add_grain_identity(data, model, state, fields, rows);
-    add_grain_motion(data, state.bodies, rows);
-    add_grain_stress(data, fields.stress, rows);
+    add_grain_identity(data, state, fields, rows);
+    add_body_identity(data, model, state, fields, rows);
+    add_body_motion(data, state.bodies, rows);
+    add_body_stress(data, fields.stress, rows);
     add_time(grid, state);
-    std::vector<std::string> names;
-    for (const Material& material : model.materials) names.push_back(material.name);
-    add_names(grid, "material_names", names);
+    add_material_names(grid, model);
     write_xml<vtkXMLUnstructuredGridWriter>(path, grid.Get());
+}
+
+void write_spheres(const std::filesystem::path& path, const Model& model, const State& state,
+                   const SnapshotFields& fields)
+{
+    const Bodies& bodies = state.bodies;
+    const std::vector<int> rows = sphere_rows(model, state);
+    vtkNew<vtkPolyData> cloud;
+    add_vertices(cloud, rows, [&](int i) { return bodies.position[i]; });
+    vtkFieldData* data = cloud->GetPointData();
+    add_integers(data, "sphere_id", rows, [&](int i) { return bodies.id[i]; });
+    add_numbers(data, "radius", rows, [&](int i) { return model.shapes.radius[bodies.shape[i]]; });
+    add_integers(data, "part", rows, [&](int i) { return bodies.group[i]; });
+    add_integers(data, "held", rows, [&](int i) { return bodies.wall[i] >= 0 ? 1 : 0; });
+    add_body_identity(data, model, state, fields, rows);
+    add_body_motion(data, bodies, rows);
+    add_body_stress(data, fields.stress, rows);
+    add_time(cloud, state);
+    add_material_names(cloud, model);
+    std::vector<std::string> parts;
+    for (const Group& group : model.groups) parts.push_back(group.name);
+    add_names(cloud, "part_names", parts);
+    write_xml<vtkXMLPolyDataWriter>(path, cloud.Get());
 }
 
 void write_bonds(const std::filesystem::path& path, const State& state)
 {
-    const std::vector<BondRow> bonds = bond_rows(state);
-    const std::vector<int> rows = all_rows(bonds.size());
-    const auto bond = [&](int i) -> const BondRow& { return bonds[static_cast<std::size_t>(i)]; };
+    const std::vector<BondFacts> facts = all_bond_facts(state);
+    const std::vector<int> rows = bond_cells(facts);
+    const auto bond = [&](int slot) -> const BondFacts& { return facts[static_cast<std::size_t>(slot)]; };
     vtkNew<vtkPolyData> surface;
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> polygons;
-    for (const BondRow& row : bonds) add_polygon(points, polygons, row.face.polygon);
+    vtkNew<vtkCellArray> lines, polygons;
+    std::vector<BondLoad> loads(facts.size());
+    std::vector<Vec3> normals(facts.size());
+    std::vector<double> openings(facts.size());
+    for (const int slot : rows) {
+        const auto i = static_cast<std::size_t>(slot);
+        const BondFace face = bond_face(state, slot);
+        if (bond(slot).kind == BondKind::sphere) {
+            lines->InsertNextCell(2);
+            for (const std::int32_t body : {bond(slot).a, bond(slot).b}) {
+                lines->InsertCellPoint(points->GetNumberOfPoints());
+                add_point(points, state.bodies.position[body]);
+            }
+        } else {
+            add_polygon(points, polygons, face.polygon);
+        }
+        loads[i] = bond_load(state, slot, bond(slot), face);
+        normals[i] = face.normal;
+        openings[i] = face.opening;
+    }
     surface->SetPoints(points);
+    surface->SetLines(lines);
     surface->SetPolys(polygons);
     vtkFieldData* data = surface->GetCellData();
-    add_integers(data, "grain_a", rows, [&](int i) { return bond(i).grain_a; });
-    add_integers(data, "grain_b", rows, [&](int i) { return bond(i).grain_b; });
+    add_integers(data, "grain_a", rows, [&](int i) { return state.bodies.id[bond(i).a]; });
+    add_integers(data, "grain_b", rows, [&](int i) { return state.bodies.id[bond(i).b]; });
     add_integers(data, "kind", rows, [&](int i) { return bond(i).kind; });
     add_integers(data, "state", rows, [&](int i) { return bond(i).stage; });
     add_integers(data, "cause", rows, [&](int i) { return bond(i).cause; });
     add_numbers(data, "damage", rows, [&](int i) { return bond(i).damage; });
-    add_numbers(data, "opening", rows, [&](int i) { return bond(i).face.opening; });
-    add_numbers(data, "normal_stress", rows, [&](int i) { return dot(bond(i).traction, bond(i).face.normal); });
-    add_numbers(data, "shear_stress", rows,
-                [&](int i) { return norm(tangential(bond(i).traction, bond(i).face.normal)); });
+    add_numbers(data, "opening", rows, [&](int i) { return openings[static_cast<std::size_t>(i)]; });
+    const auto add_load = [&](const char* name, double BondLoad::*member) {
+        add_numbers(data, name, rows, [&](int i) { return loads[static_cast<std::size_t>(i)].*member; });
+    };
+    add_load("normal_force", &BondLoad::normal_force);
+    add_load("shear_force", &BondLoad::shear_force);
+    add_load("bending_moment", &BondLoad::bending_moment);
+    add_load("twisting_moment", &BondLoad::twisting_moment);
+    add_load("normal_stress", &BondLoad::normal_stress);
+    add_load("shear_stress", &BondLoad::shear_stress);
+    add_load("peak_normal_stress", &BondLoad::peak_normal_stress);
+    add_load("peak_shear_stress", &BondLoad::peak_shear_stress);
     add_numbers(data, "stored_energy", rows, [&](int i) { return bond(i).stored_energy; });
     add_numbers(data, "fracture_work", rows, [&](int i) { return bond(i).fracture_work; });
-    add_numbers(data, "area", rows, [&](int i) { return bond(i).face.area; });
+    add_numbers(data, "area", rows, [&](int i) { return bond(i).area; });
+    add_numbers(data, "radius", rows, [&](int i) { return bond(i).radius; });
     add_numbers(data, "failure_time", rows, [&](int i) { return bond(i).failure_time; });
-    add_vectors(data, "normal", rows, [&](int i) { return bond(i).face.normal; });
+    add_vectors(data, "normal", rows, [&](int i) { return normals[static_cast<std::size_t>(i)]; });
     add_time(surface, state);
     write_xml<vtkXMLPolyDataWriter>(path, surface.Get());
 }
@@ -361,17 +407,7 @@ void write_contacts(const std::filesystem::path& path, const State& state)
     const Contacts& contacts = state.contacts;
     const std::vector<int> rows = active_contacts(contacts);
     vtkNew<vtkPolyData> cloud;
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> vertices;
-    for (const int i : rows) {
-        vertices->InsertNextCell(1);
-        vertices->InsertCellPoint(points->GetNumberOfPoints());
-        add_point(points, contacts.point[i].position);
-    }
-    cloud->SetPoints(points);
-    cloud->SetVerts(vertices);
-    // On the points, not the cells: that is where ParaView's glyphs look for vectors.
+    add_vertices(cloud, rows, [&](int i) { return contacts.point[i].position; });
     vtkFieldData* data = cloud->GetPointData();
     add_integers(data, "body_a", rows, [&](int i) { return state.bodies.id[contacts.a[i]]; });
     add_integers(data, "body_b", rows, [&](int i) { return state.bodies.id[contacts.b[i]]; });
@@ -423,7 +459,7 @@ void write_walls(const std::filesystem::path& path, const Model& model, const St
     vtkNew<vtkCellArray> polygons;
     std::vector<int> rows;  // the body of each polygon
     for (int i = 0; i < bodies.size(); ++i) {
-        if (bodies.wall[i] < 0) continue;
+        if (bodies.wall[i] < 0 || is_sphere(model, bodies, i)) continue;  // held spheres stay spheres
         const Surface shape = shape_surface(model.shapes, bodies.shape[i]);
         const vtkIdType first = points->GetNumberOfPoints();
         for (const Vec3& p : shape.points) add_point(points, bodies.position[i] + rotate(bodies.orientation[i], p));
@@ -449,23 +485,21 @@ void write_walls(const std::filesystem::path& path, const Model& model, const St
 void ParaviewSeries::write_frame(const Model& model, const State& state, const SnapshotFields& fields,
                                  const std::vector<CrackFace>& cracks, bool contacts)
 {
-    const auto name = [&](const char* kind, const char* suffix) {
-        return fmt::format("{}_{:06}.{}", kind, frame_, suffix);
+    std::vector<std::pair<std::string, std::string>> written;  // kind, file
+    const auto layer = [&](const char* kind, const char* suffix, auto&& write) {
+        const std::string file = fmt::format("{}_{:06}.{}", kind, frame_, suffix);
+        write(folder_ / file);
+        written.emplace_back(kind, file);
     };
-    const std::string grains_file = name("grains", "vtu"), bonds_file = name("bonds", "vtp"),
-                      contacts_file = name("contacts", "vtp"), cracks_file = name("cracks", "vtp"),
-                      walls_file = name("walls", "vtp");
-    write_grains(folder_ / grains_file, model, state, fields);
-    write_bonds(folder_ / bonds_file, state);
-    if (contacts) write_contacts(folder_ / contacts_file, state);
-    write_cracks(folder_ / cracks_file, state, cracks);
-    write_walls(folder_ / walls_file, model, state);
+    layer("grains", "vtu", [&](const auto& file) { write_grains(file, model, state, fields); });
+    if (!sphere_rows(model, state).empty())
+        layer("spheres", "vtp", [&](const auto& file) { write_spheres(file, model, state, fields); });
+    layer("bonds", "vtp", [&](const auto& file) { write_bonds(file, state); });
+    if (contacts) layer("contacts", "vtp", [&](const auto& file) { write_contacts(file, state); });
+    layer("cracks", "vtp", [&](const auto& file) { write_cracks(file, state, cracks); });
+    layer("walls", "vtp", [&](const auto& file) { write_walls(file, model, state); });
     // Entered when all are there, so that the layers that ParaView shows are of one time.
-    enter("grains", grains_file, state.time);
-    enter("bonds", bonds_file, state.time);
-    if (contacts) enter("contacts", contacts_file, state.time);
-    enter("cracks", cracks_file, state.time);
-    enter("walls", walls_file, state.time);
+    for (const auto& [kind, file] : written) enter(kind, file, state.time);
     ++frame_;
 }
 

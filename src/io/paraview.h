@@ -17,13 +17,16 @@ namespace grainfrac {
 /// Grains as polyhedra (.vtu).
 void write_grains(const std::filesystem::path& path, const Model& model, const State& state,
                   const SnapshotFields& fields);
-/// Bonds as the polygons between grains (.vtp).
+/// Spheres as points with a radius (.vtp).
+void write_spheres(const std::filesystem::path& path, const Model& model, const State& state,
+                   const SnapshotFields& fields);
+/// Bonds as the polygons between grains, those of spheres as lines between the centres (.vtp).
 void write_bonds(const std::filesystem::path& path, const State& state);
 /// Contacts that carry force, one vertex each (.vtp).
 void write_contacts(const std::filesystem::path& path, const State& state);
 /// Broken faces (.vtp).
 void write_cracks(const std::filesystem::path& path, const State& state, const std::vector<CrackFace>& cracks);
-/// Driven bodies (.vtp).
+/// Driven bodies, but for spheres (.vtp).
 void write_walls(const std::filesystem::path& path, const Model& model, const State& state);
 
 /// The folder with its series, one frame after another.

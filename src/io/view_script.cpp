@@ -15,7 +15,8 @@ std::string view_script()
 #   clusters   grains coloured by what bonds still hold together
 #   cleavage   grains coloured by the load over the load that splits them (K/K_c)
 # In each, "cracks between grains" (coloured by what broke them) and "cracks through grains" are layers of their own, as
-# are walls, bonds and contacts: the eyes beside their names in the Pipeline Browser turn them on and off.
+# are walls, bonds and contacts: the eyes beside their names in the Pipeline Browser turn them on and off. Spheres are
+# points drawn as balls of their radius, coloured as grains are; bonds between spheres are lines.
 #
 # Written by grainfrac beside the .pvd files, which it finds wherever the folder is moved to. Layers whose .pvd is
 # missing are left out. The choices below are meant to be changed.
@@ -75,6 +76,10 @@ def has_cells(reader):
     return reader is not None and reader.GetDataInformation().GetNumberOfCells() > 0
 
 
+def attributes(layer, association):
+    return layer.CellData if association == "CELLS" else layer.PointData
+
+
 def only_mode(cracks, name, mode):
     """The cracks whose field mode has this value."""
     layer = Threshold(registrationName=name, Input=cracks)
@@ -102,9 +107,9 @@ def legend(display, field, view, title, where, height, in_categories=True):
     return bar
 
 
-def color_by_categories(display, field, categories):
+def color_by_categories(display, field, categories, association="CELLS"):
     """`categories`: value, name and colour of each."""
-    ColorBy(display, ("CELLS", field), separate=True)
+    ColorBy(display, (association, field), separate=True)
     table = GetColorTransferFunction(field, display, separate=True)
     table.InterpretValuesAsCategories = 1
     table.AnnotationsInitialized = 1
@@ -114,17 +119,21 @@ def color_by_categories(display, field, categories):
     return table
 
 
-def color_by_cluster(display, layer, view):
-    count = int(layer.CellData["cluster"].GetRange()[1]) + 1
+def color_by_cluster(display, layer, view, association, with_legend):
+    count = int(attributes(layer, association)["cluster"].GetRange()[1]) + 1
     categories = [(k, "0, the largest" if k == 0 else "%d" % k, color) for k, color in enumerate(CLUSTER_COLORS)]
-    color_by_categories(display, "cluster", categories[:max(1, count)]).NanColor = SMALL_CLUSTERS
+    color_by_categories(display, "cluster", categories[:max(1, count)], association).NanColor = SMALL_CLUSTERS
+    if not with_legend:
+        display.SetScalarBarVisibility(view, False)
+        return
     title = "clusters: %d" % count + ("\n(smaller ones dark)" if count > len(categories) else "")
     legend(display, "cluster", view, title, [0.80, 0.06], min(0.38, 0.06 * max(1, count)))
 
 
-def usual_range(layer, name, component):
+def usual_range(layer, name, component, association):
     """All but the lowest and the highest 2 % of a field's values: a few crushed grains would take the whole scale."""
-    data = servermanager.Fetch(layer).GetCellData().GetArray(name)
+    fetched = servermanager.Fetch(layer)
+    data = (fetched.GetCellData() if association == "CELLS" else fetched.GetPointData()).GetArray(name)
     index = next((c for c in range(data.GetNumberOfComponents()) if data.GetComponentName(c) == component), None)
     values = []
     for cell in range(data.GetNumberOfTuples()):
@@ -136,14 +145,17 @@ def usual_range(layer, name, component):
     return (low, high) if high > low else (low, low + max(1.0, abs(low)))
 
 
-def color_by_field(display, layer, field, view):
+def color_by_field(display, layer, field, view, association, with_legend):
     name, _, component = field.partition(":")
-    ColorBy(display, ("CELLS", name, component) if component else ("CELLS", name))
+    ColorBy(display, (association, name, component) if component else (association, name))
+    if not with_legend:  # the grains' colours
+        display.SetScalarBarVisibility(view, False)
+        return
     table = GetColorTransferFunction(name)
     if name == "cleavage":
         low, high, colors = 0.0, 1.0, CLEAVAGE_COLORS
     else:
-        low, high = usual_range(layer, name, component)
+        low, high = usual_range(layer, name, component, association)
         colors = LOW_TO_HIGH
         if low < 0.0:
             colors, high = NEGATIVE_TO_POSITIVE, max(-low, high)
@@ -155,6 +167,18 @@ def color_by_field(display, layer, field, view):
     legend(display, name, view, title, [0.80, 0.06], 0.38, in_categories=False)
 
 
+def color_by(display, layer, field, view, association="CELLS", with_legend=True):
+    data = attributes(layer, association)
+    names = [data.GetArray(i).GetName() for i in range(data.GetNumberOfArrays())]
+    if field.partition(":")[0] not in names:
+        if names:
+            print("view.py: there is no field '%s'; there are: %s" % (field, ", ".join(names)))
+    elif field == "cluster":
+        color_by_cluster(display, layer, view, association, with_legend)
+    else:
+        color_by_field(display, layer, field, view, association, with_legend)
+
+
 def show_grains(grains, view, field):
     display = Show(grains, view)
     display.SetRepresentationType("Surface With Edges")
@@ -162,14 +186,22 @@ def show_grains(grains, view, field):
     display.LineWidth = 0.5
     display.Opacity = GRAIN_OPACITY
     display.Ambient, display.Diffuse = 0.5, 0.6  # a face seen from the front has the colour of the legend
-    names = [grains.CellData.GetArray(i).GetName() for i in range(grains.CellData.GetNumberOfArrays())]
-    if field.partition(":")[0] not in names:
-        if names:
-            print("view.py: the grains have no field '%s'; there are: %s" % (field, ", ".join(names)))
-    elif field == "cluster":
-        color_by_cluster(display, grains, view)
-    else:
-        color_by_field(display, grains, field, view)
+    if has_cells(grains):
+        color_by(display, grains, field, view)
+
+
+def show_spheres(spheres, view, field, with_legend):
+    """Points drawn as balls: a million of them turn smoothly, which glyphs do not."""
+    display = Show(spheres, view)
+    display.SetRepresentationType("Point Gaussian")
+    display.ShaderPreset = "Sphere"
+    display.ScaleByArray = 1
+    display.SetScaleArray = ["POINTS", "radius"]
+    display.UseScaleFunction = 0
+    display.GaussianRadius = 1.0
+    display.Opacity = GRAIN_OPACITY
+    if has_cells(spheres) and field != "cleavage":
+        color_by(display, spheres, field, view, "POINTS", with_legend)
 
 
 def show_cracks(layers, view, field, categories, title, where, height):
@@ -214,14 +246,15 @@ def go_to(time):
         scene.AnimationTime = min(steps, key=lambda t: abs(t - float(time)))
 
 
-def place_camera(view, layer):
-    """Along -z, the layer filling the height, left of the legends."""
+def place_camera(view, shown):
+    """Along -z, the layers filling the height, left of the legends."""
     view.CameraParallelProjection = 1
     view.CameraViewUp = [0.0, 1.0, 0.0]
-    bounds = layer.GetDataInformation().GetBounds() if has_cells(layer) else None
-    if bounds is None or bounds[0] > bounds[1]:
+    if not shown:
         ResetCamera(view)
         return
+    boxes = [layer.GetDataInformation().GetBounds() for layer in shown]
+    bounds = [(max if k % 2 else min)(box[k] for box in boxes) for k in range(6)]
     center = [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)]
     extent = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
     width, height = view.ViewSize
@@ -235,7 +268,7 @@ def place_camera(view, layer):
 
 
 def open_layers():
-    layers = {name: open_layer(name) for name in ("grains", "bonds", "contacts", "cracks", "walls")}
+    layers = {name: open_layer(name) for name in ("grains", "spheres", "bonds", "contacts", "cracks", "walls")}
     cracks = layers["cracks"]
     for name, mode in (("cracks between grains", 0), ("cracks through grains", 1)):
         if cracks is None:
@@ -250,6 +283,8 @@ def fill_view(view, layers, field):
     # A layer without cells at this time has no fields to be coloured by; it is shown all the same, plainly.
     if layers["grains"] is not None:
         show_grains(layers["grains"], view, field)
+    if layers["spheres"] is not None:
+        show_spheres(layers["spheres"], view, field, not has_cells(layers["grains"]))
     if layers["cracks"] is not None:
         causes = [(value, name, color) for value, (name, color) in enumerate(CRACK_COLORS.items())]
         show_cracks(layers["cracks between grains"], view, "cause", causes, "cracks between grains", [0.80, 0.74], 0.17)
@@ -262,7 +297,7 @@ def fill_view(view, layers, field):
         show_hidden(layers["bonds"], view, "damage", "Surface")
     if layers["contacts"] is not None:
         show_hidden(layers["contacts"], view, "normal_force", "Points", "POINTS")
-    place_camera(view, layers["grains"])
+    place_camera(view, [layer for layer in (layers["grains"], layers["spheres"]) if has_cells(layer)])
 
 
 def new_view(name, first):
@@ -305,8 +340,9 @@ def main():
         fill_view(view, layers, fields[name])
         views.append(view)
     SetActiveView(views[0])
-    if layers["grains"] is not None:
-        SetActiveSource(layers["grains"])
+    front = layers["grains"] if has_cells(layers["grains"]) else layers["spheres"]
+    if front is not None:
+        SetActiveSource(front)
     if options.save:
         SaveScreenshot(options.save, views[0], ImageResolution=[int(width), int(height)])
     else:

@@ -123,8 +123,8 @@ const Wrong wrong_values[] = {
      "m/s\"]\n"},
     // words
     {B, "\"disc\", diameter", "\"disk\", diameter",
-     "error: FILE:15: parts[0].region.shape = \"disk\": must be one of \"box\", \"beam\", \"cylinder\", \"disc\"; did "
-     "you mean \"disc\"?\n"},
+     "error: FILE:15: parts[0].region.shape = \"disk\": must be one of \"box\", \"beam\", \"cylinder\", \"disc\", "
+     "\"sphere\"; did you mean \"disc\"?\n"},
     {B, "side =", "stacking = \"zigzag\"\nside =",
      "error: FILE:13: parts[0].stacking = \"zigzag\": must be one of \"columnar\", \"half\", \"hollow\", \"AA\", "
      "\"AB\"\n"},
@@ -142,10 +142,12 @@ const Wrong wrong_values[] = {
      "error: FILE:10: parts[0].side: missing; required with generator = \"hexagonal_prisms\": a quantity > 0 m such as "
      "\"1 m\"\n"},
     {B, "diameter = \"15 mm\", ", "",
-     "error: FILE:15: parts[0].region.diameter: missing; required with shape = \"cylinder\" or \"disc\": a quantity > "
+     "error: FILE:15: parts[0].region.diameter: missing; required with shape = \"cylinder\", \"disc\" or \"sphere\": a "
+     "quantity > "
      "0 m such as \"1 m\"\n"},
     {B, "region =", "# region =",
-     "error: FILE:10: parts[0].region: missing; required with generator = \"hexagonal_prisms\": a table\n"},
+     "error: FILE:10: parts[0].region: missing; required with generator = \"hexagonal_prisms\", \"hcp\", \"fcc\", "
+     "\"random_dense\" or \"taken\": a table\n"},
     {B, "height = \"5 mm\"", "height = \"5 mm\", size = [1, 1, 1]",
      "error: FILE:15: parts[0].region.size = [1, 1, 1]: has no meaning here; it goes with shape = \"box\" or "
      "\"beam\"\n"},

@@ -3,6 +3,7 @@
 // every number that must come out.
 #pragma once
 
+#include "generate/spheres.h"
 #include "geometry/mass_properties.h"
 #include "geometry/shared_faces.h"
 #include "io/results.h"
@@ -161,6 +162,47 @@ inline void add_parallel_bond(State& state)
     bonds.radius.host()[0] = 0.2e-3;
     bonds.cause.host()[0] = 2;
     bonds.failure_time.host()[0] = 2.5e-6;
+}
+
+inline constexpr double sphere_radius = 0.5, sphere_gap = 1e-3;  // [m]
+
+/// Three spheres in a row along x, ids as indices, bonded; the third belongs to wall "grip", its bond broke in tension
+/// at 2 us. The first bond is longer by sphere_gap and twisted: F = K_n gap, M = K_t 0.01.
+inline World make_spheres()
+{
+    World w;
+    w.model.materials = {{"stone", 2000.0, 1e9, 0.1}};
+    w.model.groups = {{"chain", 0, false}};
+    w.model.walls = {"grip"};
+    w.model.wall_motion.resize(1);
+    ParallelLaw strength{};
+    strength.moment_contribution = 1.0;
+    w.model.sphere_bond_laws.host().push_back({strength, 0.0, false});
+    for (int i = 0; i < 3; ++i) {
+        SphereSpec s;
+        s.position = {2.0 * sphere_radius * i, 0, 0};
+        s.radius = sphere_radius;
+        add_sphere(w.model, w.state, s);
+    }
+    for (int i = 0; i < 2; ++i) {
+        SpherePair pair;
+        pair.a = i;
+        pair.b = i + 1;
+        pair.radius = 0.25;
+        pair.springs = circular_bond(1e9, 4e8, pair.radius, true);
+        add_sphere_bond(w.model, w.state, pair);
+    }
+    w.state.bodies.wall.host()[2] = 0;
+    w.state.bodies.held.host()[2] = 1;
+    w.state.bodies.position.host()[0].x -= sphere_gap;
+    w.state.bodies.orientation.host()[0] = from_axis_angle({1, 0, 0}, 0.01);
+    w.state.sphere_bonds.cause.host()[1] = 1;
+    w.state.sphere_bonds.failure_time.host()[1] = 2e-6;
+    w.state.time = 3e-6;
+    w.state.step = 300;
+    w.fields.stress.assign(3, Mat3{});
+    w.fields.cluster = {0, 0, 1};
+    return w;
 }
 
 inline RunFacts facts()

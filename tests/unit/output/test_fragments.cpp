@@ -56,6 +56,25 @@ TEST_CASE("shape numbers of a hexagonal prism, a box and a ball", "[output][frag
     CHECK(b.shape.axes.z == Approx(d).epsilon(1e-12));
 }
 
+TEST_CASE("spheres are fragments, held ones among them, and make clusters", "[output][fragments]")
+{
+    const sample::World w = sample::make_spheres();
+    const std::vector<Fragment> pieces = collect_fragments(w.model, w.state, w.fields);
+    REQUIRE(pieces.size() == 3);
+    const double R = sample::sphere_radius, volume = 4.0 / 3.0 * std::numbers::pi * R * R * R;
+    for (const Fragment& f : pieces) {
+        CHECK(f.faces == 0);
+        CHECK(f.shape.volume == Approx(volume).epsilon(1e-12));
+        CHECK(f.shape.axes.x == Approx(2.0 * R).epsilon(1e-12));
+    }
+    const std::vector<Cluster> clusters = collect_clusters(w.model, w.state, w.fields);
+    REQUIRE(clusters.size() == 2);
+    CHECK(clusters[0].fragments == 2);
+    CHECK(clusters[0].shape.volume == Approx(2.0 * volume).epsilon(1e-12));
+    CHECK(clusters[0].position.x == Approx(0.5 * (1.0 - sample::sphere_gap)).epsilon(1e-12));
+    CHECK(clusters[1].fragments == 1);
+}
+
 TEST_CASE("a cluster has the mass, the moments and the outer surface of its grains", "[output][fragments]")
 {
     const sample::World w = sample::make_world();

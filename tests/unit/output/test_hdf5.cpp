@@ -152,6 +152,25 @@ TEST_CASE("results.h5 holds what was appended", "[output][hdf5]")
     CHECK(file.text_attribute("/fragments/volume", "unit") == "m^3");
 }
 
+TEST_CASE("spheres and their bonds are rows of results.h5", "[output][hdf5]")
+{
+    const sample::World w = sample::make_spheres();
+    const sample::TemporaryFolder folder;
+    Hdf5Results results(folder / "results.h5", sample::facts());
+    results.append_snapshot(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
+    results.close();
+    const Hdf5File file = Hdf5File::open(folder / "results.h5");
+    CHECK(file.read<std::int32_t>("/snapshots/grain_id") == std::vector<std::int32_t>{0, 1, 2});  // 2 is held
+    CHECK(file.read<double>("/snapshots/radius") == std::vector<double>(3, sample::sphere_radius));
+    CHECK(file.read<std::int32_t>("/bonds/kind") == std::vector<std::int32_t>{2, 2});
+    CHECK(file.read<double>("/bonds/damage") == std::vector<double>{0.0, 1.0});
+    CHECK(file.read<std::int32_t>("/bonds/cause") == std::vector<std::int32_t>{-1, 0});
+    for (const double k : file.read<double>("/bonds/normal_stiffness")) CHECK(k == Approx(1e9).epsilon(1e-14));
+    for (const double k : file.read<double>("/bonds/shear_stiffness")) CHECK(k == Approx(4e8).epsilon(1e-14));
+    CHECK(file.read<double>("/cracks/time") == std::vector<double>{2e-6});
+    CHECK(file.read<std::int32_t>("/clusters/fragments") == std::vector<std::int32_t>{2, 1});
+}
+
 TEST_CASE("a grain that comes later gets its own row", "[output][hdf5]")
 {
     sample::World w = sample::make_world();

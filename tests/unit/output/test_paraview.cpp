@@ -136,7 +136,7 @@ TEST_CASE("bonds, cracks and contacts", "[output][paraview]")
     sample::add_parallel_bond(w.state);
     w.state.slots = {};
     w.state.slots.resize(4);
-    w.state.slots.force.host()[1] = -1e6 * w.state.interfaces.area[1] * interface_face(w.state, 1).normal;
+    w.state.slots.force.host()[1] = -1e6 * w.state.interfaces.area[1] * bond_face(w.state, 1).normal;
     w.state.slots.force.host()[3] = {0, -25, 0};
     const sample::TemporaryFolder folder;
     const double face_area = sample::side * sample::thickness;
@@ -185,6 +185,104 @@ TEST_CASE("bonds, cracks and contacts", "[output][paraview]")
     CHECK(value(data, "penetration", 0) == 1e-7);
     CHECK(value(data, "body_a", 0) == 2.0);
     CHECK(value(data, "body_b", 0) == 3.0);
+}
+
+TEST_CASE("spheres are points with their fields, held ones among them", "[output][paraview]")
+{
+    sample::World w = sample::make_spheres();
+    w.fields.stress[0] = {{{10e6, 2e6, 0}, {2e6, -30e6, 1e6}, {0, 1e6, 5e6}}};
+    w.state.bodies.velocity.host()[1] = {1, 2, 3};
+    w.state.bodies.angular_velocity.host()[2] = {4, 5, 6};
+    const sample::TemporaryFolder folder;
+    write_spheres(folder / "spheres.vtp", w.model, w.state, w.fields);
+    const auto cloud = read_surface(folder / "spheres.vtp");
+    REQUIRE(cloud->GetNumberOfVerts() == 3);
+    vtkFieldData* data = cloud->GetPointData();
+    for (int i = 0; i < 3; ++i) {
+        double p[3];
+        cloud->GetPoint(i, p);
+        CHECK(Vec3{p[0], p[1], p[2]} == w.state.bodies.position[i]);
+        CHECK(value(data, "sphere_id", i) == i);
+        CHECK(value(data, "radius", i) == sample::sphere_radius);
+        CHECK(value(data, "held", i) == (i == 2 ? 1.0 : 0.0));
+        CHECK(value(data, "cluster", i) == w.fields.cluster[static_cast<std::size_t>(i)]);
+        CHECK(value(data, "part", i) == 0.0);
+        CHECK(value(data, "material", i) == 0.0);
+    }
+    CHECK(value(data, "displacement", 0, 0) == -sample::sphere_gap);
+    CHECK(value(data, "rotation", 0, 0) == Approx(0.01).epsilon(1e-12));
+    CHECK(vector(data, "velocity", 1) == Vec3{1, 2, 3});
+    CHECK(vector(data, "angular_velocity", 2) == Vec3{4, 5, 6});
+    CHECK(value(data, "pressure", 0) == Approx(-5e6));
+    CHECK(value(data, "stress", 0, 4) == 1e6);
+    CHECK(value(data, "von_mises", 0) > 0.0);
+    const double damage[] = {0.0, 0.5, 1.0};  // of two equal bonds of the middle sphere one is broken
+    for (int i = 0; i < 3; ++i) CHECK(value(data, "damage", i) == Approx(damage[i]).margin(1e-15));
+    CHECK(value(cloud->GetFieldData(), "TimeValue", 0) == w.state.time);
+
+    write_walls(folder / "walls.vtp", w.model, w.state);
+    CHECK(read_surface(folder / "walls.vtp")->GetNumberOfCells() == 0);
+    write_grains(folder / "grains.vtu", w.model, w.state, w.fields);
+    CHECK(read_grid(folder / "grains.vtu")->GetNumberOfCells() == 0);
+}
+
+TEST_CASE("bonds of spheres are lines with forces and moments", "[output][paraview]")
+{
+    sample::World w = sample::make_spheres();
+    // Pull, shear and moments of known size on sphere 1 from sphere 0, about the contact point.
+    const Vec3 force{-100.0, 30.0, 40.0}, moment{5.0, 0.0, -12.0}, arm{0.5 * (1.0 + sample::sphere_gap), 0, 0};
+    w.state.slots.resize(2);
+    w.state.slots.force.host()[0] = force;
+    w.state.slots.torque_b.host()[0] = moment - cross(arm, force);
+    const sample::TemporaryFolder folder;
+    write_bonds(folder / "bonds.vtp", w.state);
+    const auto bonds = read_surface(folder / "bonds.vtp");
+    REQUIRE(bonds->GetNumberOfLines() == 2);
+    REQUIRE(bonds->GetNumberOfPolys() == 0);
+    const std::vector<Vec3> line = points_of(bonds->GetCell(0));
+    CHECK(line.at(0) == w.state.bodies.position[0]);
+    CHECK(line.at(1) == w.state.bodies.position[1]);
+    vtkFieldData* data = bonds->GetCellData();
+    const double R = 0.25, A = std::numbers::pi * R * R;
+    CHECK(value(data, "kind", 0) == 2.0);
+    CHECK(value(data, "normal_force", 0) == Approx(100.0).epsilon(1e-12));
+    CHECK(value(data, "shear_force", 0) == Approx(50.0).epsilon(1e-12));
+    CHECK(value(data, "twisting_moment", 0) == Approx(5.0).epsilon(1e-12));
+    CHECK(value(data, "bending_moment", 0) == Approx(12.0).epsilon(1e-12));
+    CHECK(value(data, "normal_stress", 0) == Approx(100.0 / A).epsilon(1e-12));
+    CHECK(value(data, "peak_normal_stress", 0) == Approx(100.0 / A + 4.0 * 12.0 / (A * R)).epsilon(1e-12));
+    CHECK(value(data, "peak_shear_stress", 0) == Approx(50.0 / A + 2.0 * 5.0 / (A * R)).epsilon(1e-12));
+    CHECK(value(data, "opening", 0) == Approx(sample::sphere_gap).epsilon(1e-12));
+    CHECK(value(data, "radius", 0) == R);
+    CHECK(value(data, "state", 1) == 2.0);
+    CHECK(value(data, "cause", 1) == 0.0);
+    CHECK(value(data, "failure_time", 1) == 2e-6);
+    CHECK(value(data, "normal", 1, 0) == Approx(1.0));
+
+    const std::vector<CrackFace> cracks = collect_cracks(w.model, w.state);
+    REQUIRE(cracks.size() == 1);
+    CHECK(cracks[0].area == Approx(A).epsilon(1e-14));
+    CHECK(norm(polygon_centroid(cracks[0].polygon) - Vec3{1.5, 0, 0}) < 1e-14);
+    CHECK(crack_sums(w.state).intergranular_area == Approx(A).epsilon(1e-14));
+}
+
+TEST_CASE("lines of spheres come before polygons of grains, fields in the same order", "[output][paraview]")
+{
+    sample::World w = sample::make_world();
+    SpherePair pair;  // between two grains: only the order of cells is looked at
+    pair.b = 2;
+    pair.radius = 1e-4;
+    pair.springs = {1.0, 1.0, 0.0, 0.0};
+    add_sphere_bond(w.model, w.state, pair);
+    const sample::TemporaryFolder folder;
+    write_bonds(folder / "bonds.vtp", w.state);
+    const auto bonds = read_surface(folder / "bonds.vtp");
+    REQUIRE(bonds->GetNumberOfCells() == 3);
+    const double kinds[] = {2, 0, 0}, points[] = {2, 4, 4};
+    for (int i = 0; i < 3; ++i) {
+        CHECK(value(bonds->GetCellData(), "kind", i) == kinds[i]);
+        CHECK(bonds->GetCell(i)->GetNumberOfPoints() == points[i]);
+    }
 }
 
 TEST_CASE("walls are closed surfaces", "[output][paraview]")
@@ -271,6 +369,16 @@ TEST_CASE("the series enter each frame with its time", "[output][paraview]")
         CHECK(text.find("timestep=\"3e-06\"") != std::string::npos);
         CHECK((text.find("timestep=\"1.5e-05\"") != std::string::npos) == (kind != "contacts"));
     }
+}
+
+TEST_CASE("a series of spheres is written where there are some", "[output][paraview]")
+{
+    const sample::World w = sample::make_spheres(), grains = sample::make_world();
+    const sample::TemporaryFolder folder, other;
+    ParaviewSeries(folder.path()).write_frame(w.model, w.state, w.fields, {}, true);
+    ParaviewSeries(other.path()).write_frame(grains.model, grains.state, grains.fields, {}, true);
+    CHECK(read_file(folder / "spheres.pvd").find("spheres_000000.vtp") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(other / "spheres.pvd"));
 }
 
 TEST_CASE("VTK's readers load every file that a run leaves, and every series names files that there are")

@@ -237,12 +237,12 @@ TEST_CASE("why bonds broke", "[output][cracks]")
                                                    {0.67, CrackCause::shear},  {1.0, CrackCause::shear}};
     for (const auto& [share, cause] : cases) {
         bonds.shear_share.host()[0] = share * bonds.area[0];
-        CHECK(interface_cause(bonds, 0) == cause);
+        CHECK(bond_facts(w.state, 0).cause == cause);
         CHECK(collect_cracks(w.model, w.state).at(0).cause == static_cast<int>(cause));
     }
-    CHECK(interface_cause(bonds, 1) == CrackCause::none);
+    CHECK(bond_facts(w.state, 1).cause == CrackCause::none);
     bonds.retired.host()[0] = 1;
-    CHECK(interface_stage(bonds, 0) == BondStage::retired);
+    CHECK(bond_facts(w.state, 0).stage == BondStage::retired);
     CHECK(collect_cracks(w.model, w.state).size() == 1);
     const CrackFace crack = collect_cracks(w.model, w.state)[0];
     CHECK(crack.first_damage_time == 1e-6);
