@@ -201,8 +201,7 @@ Built build(const Case& c, Device device)
     model.gravity = c.control.gravity;
     for (std::size_t k = 0; k < c.walls.size(); ++k)
         add_wall(model, state, c.walls[k], fmt::format("walls[{}]", k), c.file);
-    for (std::size_t k = 0; k < c.grips.size(); ++k)
-        add_grip(model, state, c.grips[k], fmt::format("grips[{}]", k));
+    for (std::size_t k = 0; k < c.grips.size(); ++k) add_grip(model, state, c.grips[k], fmt::format("grips[{}]", k));
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);

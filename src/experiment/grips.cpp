@@ -3,20 +3,17 @@
 
 #include "experiment/specimen.h"
 #include "experiment/walls.h"
+#include "generate/sphere_region.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
 namespace grainfrac {
 
 namespace {
-
-/// A centre on the surface of a region is inside, whatever its round-off [share of the region's size].
-constexpr double on_surface = 1e-9;
 
 /// Bits of Bodies::held.
 constexpr std::int32_t all_axes = 7, held_rotation = 8;
@@ -38,7 +35,8 @@ std::vector<int> bodies_of(const Model& model, const Bodies& b, const GripSpec& 
     if (all.empty()) return all;
     if (spec.at == "first") return {all.front()};
     if (spec.at == "last") return {all.back()};
-    std::erase_if(all, [&](int i) { return !contains(spec.region, b.position[i]); });
+    const SphereRegion region(spec.region);
+    std::erase_if(all, [&](int i) { return !region.contains(b.position[i]); });
     return all;
 }
 
@@ -55,20 +53,6 @@ void hold(Bodies& b, int i, std::int32_t bits)
 }
 
 }  // namespace
-
-bool contains(const RegionSpec& r, const Vec3& x)
-{
-    const Vec3 d = x - r.center;
-    if (r.shape == "sphere") return norm(d) <= (0.5 + on_surface) * r.diameter;
-    if (r.shape == "cylinder" || r.shape == "disc") {
-        const Vec3 along = axis_vector(axis_of(r.axis));
-        return std::fabs(dot(d, along)) <= (0.5 + on_surface) * r.height &&
-               norm(tangential(d, along)) <= (0.5 + on_surface) * r.diameter;
-    }
-    bool inside = true;
-    for (int k = 0; k < 3; ++k) inside = inside && std::fabs(d[k]) <= (0.5 + on_surface) * r.size[k];
-    return inside;
-}
 
 void add_grip(Model& model, State& state, const GripSpec& spec, const std::string& key)
 {

@@ -8,9 +8,6 @@
 
 namespace grainfrac {
 
-/// Whether a point lies in a region or on its surface; a cylinder's circle is exact, whatever `facets` says.
-bool contains(const RegionSpec& region, const Vec3& x);
-
 /// New wall of this name whose bodies are those of the part that the grip takes. Held in all axes they are driven, with
 /// free rotation they are pins; held in some, they move freely along the others. Throws InputError, with the key below
 /// `key`, if there are none or if one is driven already.

@@ -408,7 +408,6 @@ private:
             fail(path + ".region", "give either at or region, not both");
         const std::string key = path + ".hold";
         if (!given(key) || !right(key)) return;
-        if (g.hold.empty()) fail(key, "must not be empty; allowed: \"x\", \"y\", \"z\", \"rotation\"");
         if (std::set<std::string>(g.hold.begin(), g.hold.end()).size() != g.hold.size())
             fail(key, "names one of them twice");
     }
@@ -429,10 +428,9 @@ private:
                                [&](const StageMotion& m) { return m.wall == w.name; });
         };
         return std::any_of(s.motions.begin(), s.motions.end(), [](const StageMotion& m) { return m.moves(); }) ||
-               std::any_of(c_.walls.begin(), c_.walls.end(),
-                           [&](const WallSpec& w) {
-                               return (norm2(w.velocity) > 0.0 || w.servo.given()) && !named(w);
-                           }) ||
+               std::any_of(
+                   c_.walls.begin(), c_.walls.end(),
+                   [&](const WallSpec& w) { return (norm2(w.velocity) > 0.0 || w.servo.given()) && !named(w); }) ||
                std::any_of(c_.grips.begin(), c_.grips.end(),
                            [&](const GripSpec& g) { return norm2(g.velocity) > 0.0 && !named(g); });
     }

@@ -622,7 +622,8 @@ void describe(V& v, GripSpec& s)
             {.required = by_region, .used = {s.by_region()}, .meaning = "bodies of the part whose centre is inside"});
     v("hold", s.hold,
       {.words = "x | y | z | rotation",
-       .meaning = "what goes as the grip does; the rest is left to the forces. Without rotation its bodies turn freely"});
+       .meaning =
+           "what goes as the grip does; the rest is left to the forces. Without rotation its bodies turn freely"});
     v("velocity", s.velocity, {.unit = "m/s", .meaning = "velocity, unless a stage says otherwise"});
     v("ramp", s.ramp,
       {.unit = "s", .range = not_negative, .meaning = "time over which the speed rises smoothly from 0"});

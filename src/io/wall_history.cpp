@@ -14,7 +14,7 @@ namespace {
 /// Sums over the contact points of a wall, weighted by force.
 struct Gyration {
     double weight = 0.0;
-    Vec3 first;           // moments about a point near by: small differences of large numbers lose digits
+    Vec3 first;  // moments about a point near by: small differences of large numbers lose digits
     double second = 0.0;
     Vec3 origin;
     int points = 0;

@@ -201,11 +201,11 @@ struct WallSpec {
 struct GripSpec {
     std::string name;
     std::string part;
-    std::string at;                                          ///< first | last sphere of a chain; "": by `region`
-    RegionSpec region;                                       ///< bodies whose centre is inside
+    std::string at;                                            ///< first | last sphere of a chain; "": by `region`
+    RegionSpec region;                                         ///< bodies whose centre is inside
     std::vector<std::string> hold{"x", "y", "z", "rotation"};  ///< what they do not choose themselves
-    Vec3 velocity;                                           ///< [m/s]
-    double ramp = 0.0;                                       ///< time over which the speed rises smoothly [s]
+    Vec3 velocity;                                             ///< [m/s]
+    double ramp = 0.0;                                         ///< time over which the speed rises smoothly [s]
 
     bool by_region() const { return region.diameter > 0.0 || norm2(region.size) > 0.0; }
 };
