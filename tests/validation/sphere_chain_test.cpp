@@ -16,6 +16,7 @@ struct LyingChain {
     int plate = 0, n = 0;
     double dt = 0.0;
 
+    LyingChain() = default;
     LyingChain(int spheres, const SphereBondLaw& law, bool moments, double damping)
         : a(sphere_assembly(law, density)), n(spheres)
     {
@@ -80,11 +81,10 @@ TEST_CASE("a stiff chain whose end is lifted presses where it leaves the plate")
 
 TEST_CASE("a chain without moments is picked up from its heap without a push of the plate", "[slow]")
 {
-    // Folded in rows; T_C + R_x = lambda v^2, R_x the force of the plate less the weight that rests on it
+    // Folded in rows; T_C + R_x = v dm/dt, R_x the force of the plate less the weight that rests on it
     constexpr double v = 40.0, ramp = 0.5;  // [m/s], [s]
-    LyingChain c(1, unbreakable_bond(true, 0.1), false, 0.3);
+    LyingChain c;
     Assembly& a = c.a;
-    // the plate was made for a row of one: a large one instead
     a = sphere_assembly(unbreakable_bond(true, 0.1), density);
     std::vector<Vec3> places{{}};
     for (int row = 0; row < 14; ++row) {
@@ -126,10 +126,11 @@ TEST_CASE("a chain without moments is picked up from its heap without a push of 
         for (int i = 0; i < c.n; ++i) lifted += (b.position[i].z > 0.1 * R ? 2.0 * R : 0.0) * c.dt;
     }
     const double time = a.state.time - from, weight = c.n * c.weight(), q = c.weight() / (2.0 * R);
-    const double unit = m / (2.0 * R) * v * v;
-    const double T = (pull - q * lifted) / time, reaction = push / time - (weight - q * lifted / time);
     for (int i = 0; i < c.n; ++i) up += b.position[i].z > 0.1 * R ? 1 : 0;
-    INFO(T / unit << ' ' << reaction / unit << ' ' << (up - up0) * m / time * v / unit << ' ' << push / time / unit);
+    // the lifted part is not straight: what leaves the plate in a second is a little more than v
+    const double rate = (up - up0) * m / time, unit = rate * v;
+    const double T = (pull - q * lifted) / time, reaction = push / time - (weight - q * lifted / time);
+    INFO("rate over lambda v " << rate / (m / (2.0 * R) * v) << ", T_C " << T / unit << ", R_x " << reaction / unit);
     CHECK((momentum() - p0) / time == Approx(T + reaction).epsilon(1e-3));
     CHECK(T + reaction == Approx(unit).epsilon(0.03));
     CHECK(std::fabs(reaction) < 0.02 * unit);
