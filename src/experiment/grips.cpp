@@ -65,7 +65,7 @@ void add_grip(Model& model, State& state, const GripSpec& spec, const std::strin
     const std::int32_t bits = bits_of(spec.hold);
     for (const int i : taken) {
         if (b.wall[i] >= 0)
-            throw InputError(key, fmt::format("{} of \"{}\" is held by grip \"{}\" already", b.id[i], spec.part,
+            throw InputError(key, fmt::format("body {} of \"{}\" is held by grip \"{}\" already", b.id[i], spec.part,
                                               model.walls[static_cast<std::size_t>(b.wall[i])]));
         hold(b, i, bits);
         b.wall.at(i) = wall;
