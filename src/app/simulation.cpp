@@ -89,6 +89,7 @@ public:
             const Stage& stage = experiment_.stages[k];
             spdlog::info("stage \"{}\"", stage.name);
             begin_stage(stage, model_, state_);
+            if (!stage.released.empty()) shorten_step_if_needed(time_step_bound(model_, state_));
             if (static_cast<int>(k) == experiment_.reference_stage) begin_reference();
             remember_begin(stage);
             if (state_.step == 0) record_row(stage);
@@ -415,6 +416,8 @@ private:
             folder_.append_pull_out(experiment_.pull_out->path.back(), fibre_profile(*experiment_.pull_out, state_),
                                     case_.test.profiles_at);
         }
+        if (!model_.walls.empty() && (experiment_.kind == "custom" || experiment_.kind == "drop"))
+            folder_.append_walls(model_, state_);
         record_.rows.push_back(r);
         if (m.load > record_.peak_load) {
             record_.peak_load = m.load;

@@ -9,6 +9,7 @@
 #include "experiment/dcb.h"
 #include "experiment/drop.h"
 #include "experiment/experiment.h"
+#include "experiment/grips.h"
 #include "experiment/laws.h"
 #include "experiment/pre_cut.h"
 #include "experiment/precrack.h"
@@ -219,6 +220,7 @@ Built build(const Case& c, Device device)
     model.gravity = c.control.gravity;
     for (std::size_t k = 0; k < c.walls.size(); ++k)
         add_wall(model, state, c.walls[k], fmt::format("walls[{}]", k), c.file);
+    for (std::size_t k = 0; k < c.grips.size(); ++k) add_grip(model, state, c.grips[k], fmt::format("grips[{}]", k));
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);
@@ -280,10 +282,10 @@ void begin_stage(const Stage& stage, Model& model, State& state)
     }
     model.local_damping = stage.local_damping;
     model.fracture_active = stage.fracture;
-    if (stage.gravity && norm2(*stage.gravity - model.gravity) > 0.0) {  // the next half kick already works with it
-        model.gravity = *stage.gravity;
-        gather_forces(model, state);
-    }
+    for (const std::int32_t grip : stage.released) release_grip(model, state, grip);
+    const bool falls_anew = stage.gravity && norm2(*stage.gravity - model.gravity) > 0.0;
+    if (falls_anew) model.gravity = *stage.gravity;
+    if (falls_anew || !stage.released.empty()) gather_forces(model, state);  // the next half kick works with it
 }
 
 void take_reference(Experiment& e, const Model& model, const State& state)

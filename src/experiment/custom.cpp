@@ -37,11 +37,26 @@ void set_load(Stage& s, int wall, bool back)
     s.load_direction = servo ? s.servos[w].direction : (back ? -1.0 : 1.0) * normalized(s.wall_velocity[w]);
 }
 
+/// Walls, then grips, in the order of Model::walls; a grip is a wall without a shape of its own.
+std::vector<WallSpec> walls_and_grips(const Case& c)
+{
+    std::vector<WallSpec> all = c.walls;
+    for (const GripSpec& g : c.grips) {
+        WallSpec w;
+        w.name = g.name;
+        w.velocity = g.velocity;
+        w.ramp = g.ramp;
+        all.push_back(w);
+    }
+    return all;
+}
+
 Stage make_stage(const Case& c, const StageSpec& s, const std::vector<Stage>& before, Model& model)
 {
+    const std::vector<WallSpec> walls = walls_and_grips(c);
     Stage stage;
     stage.name = s.name;
-    stage.wall_velocity.resize(c.walls.size());
+    stage.wall_velocity.resize(walls.size());
     if (s.kind == "bond") {
         stage.bonds = BondsToMake{BondTable(c, model, s.name), s.bond_distance, s.bond_angle};
         return stage;
@@ -49,28 +64,29 @@ Stage make_stage(const Case& c, const StageSpec& s, const std::vector<Stage>& be
     const Material& m = model.materials.front();
     const double slow = quasi_static_speed(c, model),
                  fastest = slow > 0.0 ? slow : unbonded_servo_speed * std::sqrt(m.young_modulus / m.density);
-    stage.servos.resize(c.walls.size());
-    for (std::size_t w = 0; w < c.walls.size(); ++w) {
-        stage.wall_velocity[w] = c.walls[w].velocity;
-        stage.servos[w] = make_servo(c.walls[w].servo, c.walls[w], fastest);
-        stage.ramp = std::max(stage.ramp, c.walls[w].ramp);
+    stage.servos.resize(walls.size());
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        stage.wall_velocity[w] = walls[w].velocity;
+        stage.servos[w] = make_servo(walls[w].servo, walls[w], fastest);
+        stage.ramp = std::max(stage.ramp, walls[w].ramp);
     }
+    for (const std::string& grip : s.release) stage.released.push_back(wall_named(model, grip));
     stage.unloads = s.kind == "unload";
     for (const StageMotion& move : s.motions) {
         const int wall = wall_named(model, move.wall);
         const auto w = static_cast<std::size_t>(wall);
         stage.wall_velocity[w] = move.velocity;
-        stage.servos[w] = make_servo(move.servo, c.walls[w], fastest);
+        stage.servos[w] = make_servo(move.servo, walls[w], fastest);
         set_load(stage, wall, stage.unloads);
     }
     if (stage.unloads && s.motions.empty()) {
         const auto last =
             std::find_if(before.rbegin(), before.rend(), [](const Stage& b) { return b.loaded_wall >= 0; });
-        for (std::size_t w = 0; w < c.walls.size(); ++w) stage.wall_velocity[w] = -last->wall_velocity[w];
+        for (std::size_t w = 0; w < walls.size(); ++w) stage.wall_velocity[w] = -last->wall_velocity[w];
         stage.loaded_wall = last->loaded_wall;
         stage.load_direction = last->load_direction;
     }
-    for (std::size_t w = 0; w < c.walls.size(); ++w) set_load(stage, static_cast<int>(w), stage.unloads);
+    for (std::size_t w = 0; w < walls.size(); ++w) set_load(stage, static_cast<int>(w), stage.unloads);
     if (s.ramp > 0.0) stage.ramp = s.ramp;
     stage.gravity = s.gravity.value_or(c.control.gravity);
     stage.local_damping = s.local_damping.value_or(s.kind == "settle" ? settling_damping : c.control.local_damping);

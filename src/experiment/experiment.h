@@ -35,6 +35,7 @@ struct Stage {
     std::string name;
     std::vector<Vec3> wall_velocity;               ///< one per wall [m/s]
     std::vector<Servo> servos;                     ///< one per wall, or none at all
+    std::vector<std::int32_t> released;            ///< grips that let go at its beginning
     double ramp = 0.0;                             ///< time over which walls change speed or push [s]
     std::optional<Vec3> gravity;                   ///< else as before [m/s^2]
     double local_damping = 0.0;                    ///< [-]

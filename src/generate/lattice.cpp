@@ -42,7 +42,7 @@ void check_count(const char* key, double spheres)
     }
 }
 
-std::vector<Vec3> hcp_sites(const SphereRegion& region, double d, int axis)
+std::vector<Vec3> hcp_sites(const SphereRegion& region, double d, int axis, bool channel)
 {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;  // along the rows, across them
     const double h = std::sqrt(2.0 / 3.0) * d, row = std::sqrt(0.75) * d, hollow = d / std::sqrt(3.0);
@@ -57,7 +57,7 @@ std::vector<Vec3> hcp_sites(const SphereRegion& region, double d, int axis)
             for (int i = -places; i <= places; ++i) {
                 Vec3 x = region.center;
                 x[u] += d * (i + (j % 2 == 0 ? 0.0 : 0.5));
-                x[v] += row * j + (k % 2 == 0 ? 0.0 : hollow);
+                x[v] += row * j + (k % 2 == 0 ? 0.0 : hollow) + (channel ? hollow : 0.0);
                 x[axis] += h * (k - 0.5 * (levels - 1));
                 if (region.contains(x)) sites.push_back(x);
             }

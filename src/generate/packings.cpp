@@ -44,10 +44,37 @@ SphereSpec prototype(const Case& c, std::size_t part)
     return s;
 }
 
-/// The chain of a part and its copies, one after the other; `chains` counts those of all parts.
-Spheres chain_spheres(const PartSpec& p, const SphereSpec& model, std::int32_t& chains)
+/// A straight fibre along the c axis of the lattice that it lies in, without a spacing of its own, has a node at each
+/// of its layers: bonds of its surface then measure slip and nothing else. Empty where that is not so.
+FibreNodes nodes_of_layers(const PartSpec& p, const PartSpec& host_part, const Spheres& host)
 {
-    const FibreNodes nodes = below("fibre", [&] { return fibre_nodes(p.fibre, p.fibre.spacing.value_or(p.diameter)); });
+    const FibreSpec& f = p.fibre;
+    const int axis = axis_index(host_part.lattice_axis);
+    const Vec3 way = f.to - f.from;
+    if (host_part.generator != "hcp" || f.shape != "straight" || f.spacing ||
+        std::fabs(std::fabs(way[axis]) - norm(way)) > 1e-9 * norm(way))
+        return {};
+    const double round_off = 1e-6 * host_part.diameter;
+    std::vector<double> layers;
+    for (const SphereSpec& s : host) layers.push_back(s.position[axis]);
+    std::sort(layers.begin(), layers.end());
+    layers.erase(std::unique(layers.begin(), layers.end(),
+                             [&](double x, double y) { return std::fabs(x - y) < round_off; }),
+                 layers.end());
+    if (way[axis] < 0.0) std::reverse(layers.begin(), layers.end());
+    FibreNodes nodes;
+    for (const double z : layers) {
+        const double share = (z - f.from[axis]) / way[axis];
+        if (share >= -round_off && share <= 1.0 + round_off) nodes.position.push_back(f.from + share * way);
+    }
+    if (nodes.position.size() < 2) return {};
+    nodes.piece = norm(nodes.position[1] - nodes.position[0]);
+    return nodes;
+}
+
+/// The chain of a part and its copies, one after the other; `chains` counts those of all parts.
+Spheres chain_spheres(const PartSpec& p, const SphereSpec& model, const FibreNodes& nodes, std::int32_t& chains)
+{
     SphereSpec s = model;
     s.section_radius = p.fibre.radius.value_or(0.0);
     s.piece = p.fibre.radius ? nodes.piece : 0.0;
@@ -93,7 +120,7 @@ Spheres packed_spheres(const Case& c, std::size_t part)
     if (p.generator == "hcp" || p.generator == "fcc") {
         const bool hcp = p.generator == "hcp";
         for (const Vec3& x :
-             hcp ? hcp_sites(region, p.diameter, axis_index(p.lattice_axis)) : fcc_sites(region, p.diameter)) {
+             hcp ? hcp_sites(region, p.diameter, axis_index(p.lattice_axis), p.lattice_origin == "channel") : fcc_sites(region, p.diameter)) {
             add(x, model.radius);
         }
     } else {
@@ -183,10 +210,18 @@ std::vector<SphereSpec> generate_spheres(const Case& c)
         }
     };
     for_parts([&](std::size_t k, const PartSpec& p) {
-        if (p.generator == "chain")
-            of_part[k] = chain_spheres(p, prototype(c, k), chains);
-        else if (p.generator != "taken")
-            of_part[k] = packed_spheres(c, k);
+        if (p.generator != "taken" && p.generator != "chain") of_part[k] = packed_spheres(c, k);
+    });
+    for_parts([&](std::size_t k, const PartSpec& p) {
+        if (p.generator != "chain") return;
+        FibreNodes nodes;
+        if (!p.inside.empty()) {
+            const std::size_t host = part_named(c, p.inside);
+            nodes = nodes_of_layers(p, c.parts[host], of_part[host]);
+        }
+        if (nodes.position.empty())
+            nodes = below("fibre", [&] { return fibre_nodes(p.fibre, p.fibre.spacing.value_or(p.diameter)); });
+        of_part[k] = chain_spheres(p, prototype(c, k), nodes, chains);
     });
     for_parts([&](std::size_t k, const PartSpec& p) {
         if (p.generator == "taken") of_part[k] = take(p, prototype(c, k), of_part[part_named(c, p.inside)]);

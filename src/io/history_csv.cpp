@@ -59,9 +59,7 @@ void HistoryCsv::append(const HistoryRow& row)
 
 void HistoryCsv::put(const std::string& text)
 {
-    errno = 0;
-    if (!(file_ << text << std::flush))
-        throw std::runtime_error(path_.string() + ": cannot write: " + std::strerror(errno != 0 ? errno : EIO));
+    append_text(file_, path_, text);
 }
 
 void HistoryCsv::close()

@@ -35,6 +35,7 @@ public:
         pairs("contacts", c_.contacts);
         for (std::size_t i = 0; i < c_.bonds.size(); ++i) bond(c_.bonds[i], joined("bonds", i));
         for (std::size_t i = 0; i < c_.walls.size(); ++i) wall(c_.walls[i], joined("walls", i));
+        for (std::size_t i = 0; i < c_.grips.size(); ++i) grip(c_.grips[i], joined("grips", i));
         for (std::size_t i = 0; i < c_.stages.size(); ++i) stage(c_.stages[i], i);
         if (right("test.kind")) {
             if (c_.test.kind == "custom")
@@ -102,7 +103,7 @@ private:
     {
         for (const InputProblem& problem : problems_) {  // one of these is no table: there are names that are not known
             const std::string& key = problem.key;
-            if (key == "materials" || key == "parts" || key == "walls") names_right_ = false;
+            if (key == "materials" || key == "parts" || key == "walls" || key == "grips") names_right_ = false;
         }
         for (const MaterialSpec& m : c_.materials) {
             enter_name(m.name, joined("materials", m.name), "a material");
@@ -140,6 +141,11 @@ private:
         for (std::size_t i = 0; i < c_.walls.size(); ++i) {
             enter_name(c_.walls[i].name, joined("walls", i) + ".name", "a wall");
             wall_names_.push_back(c_.walls[i].name);
+        }
+        for (std::size_t i = 0; i < c_.grips.size(); ++i) {
+            enter_name(c_.grips[i].name, joined("grips", i) + ".name", "a grip");
+            wall_names_.push_back(c_.grips[i].name);
+            grip_names_.push_back(c_.grips[i].name);
         }
         std::set<std::string> stages;
         for (std::size_t i = 0; i < c_.stages.size(); ++i) {
@@ -417,6 +423,24 @@ private:
         if (given(owner + ".velocity")) fail(owner + ".velocity", "give either velocity or servo, not both");
     }
 
+    void grip(const GripSpec& g, const std::string& path)
+    {
+        if (c_.test.kind != "custom" && right("test.kind"))
+            fail(path, fmt::format("a {} test holds its own bodies; use test.kind = \"custom\"", c_.test.kind));
+        if (given(path + ".part") && right(path + ".part") && names_right_) {
+            std::vector<std::string> parts;
+            for (const PartSpec& p : c_.parts) parts.push_back(p.name);
+            if (std::find(parts.begin(), parts.end(), g.part) == parts.end())
+                fail(path + ".part", "no such part; " + choice(g.part, parts));
+        }
+        if (given(path + ".at") && given(path + ".region"))
+            fail(path + ".region", "give either at or region, not both");
+        const std::string key = path + ".hold";
+        if (!given(key) || !right(key)) return;
+        if (std::set<std::string>(g.hold.begin(), g.hold.end()).size() != g.hold.size())
+            fail(key, "names one of them twice");
+    }
+
     const WallSpec* wall_named(const std::string& name) const
     {
         for (const WallSpec& w : c_.walls) {
@@ -428,14 +452,16 @@ private:
     /// Whether a wall moves in the stage: one that it names, or one with a motion of its own.
     bool moves_a_wall(const StageSpec& s) const
     {
-        const auto named = [&](const WallSpec& w) {
+        const auto named = [&](const auto& w) {
             return std::any_of(s.motions.begin(), s.motions.end(),
                                [&](const StageMotion& m) { return m.wall == w.name; });
         };
         return std::any_of(s.motions.begin(), s.motions.end(), [](const StageMotion& m) { return m.moves(); }) ||
-               std::any_of(c_.walls.begin(), c_.walls.end(), [&](const WallSpec& w) {
-                   return (norm2(w.velocity) > 0.0 || w.servo.given()) && !named(w);
-               });
+               std::any_of(
+                   c_.walls.begin(), c_.walls.end(),
+                   [&](const WallSpec& w) { return (norm2(w.velocity) > 0.0 || w.servo.given()) && !named(w); }) ||
+               std::any_of(c_.grips.begin(), c_.grips.end(),
+                           [&](const GripSpec& g) { return norm2(g.velocity) > 0.0 && !named(g); });
     }
 
     void stage(const StageSpec& s, std::size_t i)
@@ -453,12 +479,28 @@ private:
             if (!given(key) || !right(key)) continue;
             const std::string& name = s.motions[k].wall;
             const WallSpec* wall = wall_named(name);
-            if (wall == nullptr) {
+            const bool is_grip = std::find(grip_names_.begin(), grip_names_.end(), name) != grip_names_.end();
+            if (is_grip && given(entry + ".servo")) fail(entry + ".servo", "a grip has no servo; give its velocity");
+            if (wall == nullptr && !is_grip) {
                 fail(key, "no such wall; " + choice(name, wall_names_));
                 continue;
             }
             if (!moved.insert(name).second) fail(key, "this wall is moved already in this stage");
-            servo(s.motions[k].servo, entry, wall->shape == "plate");
+            if (!is_grip) servo(s.motions[k].servo, entry, wall->shape == "plate");
+        }
+        for (std::size_t k = 0; k < s.release.size(); ++k) {
+            const std::string key = joined(path + ".release", k), &name = s.release[k];
+            if (!right(path + ".release")) continue;
+            if (std::find(grip_names_.begin(), grip_names_.end(), name) == grip_names_.end())
+                fail(key, "no such grip; " + choice(name, grip_names_));
+            else if (moved.count(name) > 0)
+                fail(key, "this grip is moved in this stage; it cannot let go too");
+            else if (!released_.insert(name).second)
+                fail(key, "this grip has let go already");
+        }
+        for (const std::string& name : moved) {
+            if (released_.count(name) > 0 && std::find(s.release.begin(), s.release.end(), name) == s.release.end())
+                fail(path, fmt::format("grip \"{}\" has let go in an earlier stage; it cannot move", name));
         }
         if (!right(path)) return;
         const bool goes_back = s.kind == "unload" && s.motions.empty();
@@ -621,10 +663,11 @@ private:
 
     const Case& c_;
     std::vector<InputProblem>& problems_;
+    std::set<std::string> released_;            ///< grips that let go in the stages so far
     std::set<std::string> wrong_;               ///< paths of problems and of the tables around them
     std::map<std::string, std::string> owner_;  ///< names that `between` can hold, and what they name
     bool names_right_ = true;                   ///< else a name that is not there is not worth a message
-    std::vector<std::string> material_names_, wall_names_, pair_names_, bond_stages_;
+    std::vector<std::string> material_names_, wall_names_, grip_names_, pair_names_, bond_stages_;
 };
 
 }  // namespace

@@ -260,7 +260,7 @@ void describe(V& v, FibreSpec& s)
     v("spacing", s.spacing,
       {.unit = "m",
        .range = positive,
-       .unset = "`diameter`",
+       .unset = "`diameter`; straight along the c axis of the hcp lattice that it is `inside`: its layers",
        .meaning = "of the spheres along the line; adjusted so that a whole number fits"});
     v("radius", s.radius,
       {.unit = "m",
@@ -366,6 +366,11 @@ void describe(V& v, PartSpec& s)
        .meaning = "volume of the spheres over that of the region; about 0.63 is possible far from walls"});
     v("lattice_axis", s.lattice_axis,
       {.words = "x | y | z", .used = hcp, .meaning = "c axis, along which the close-packed layers are stacked"});
+    v("lattice_origin", s.lattice_origin,
+      {.words = "site | channel",
+       .used = hcp,
+       .meaning = "what lies on the line through the region's centre: a sphere in every second layer, or the channel "
+                  "that no layer fills, about which all layers look alike"});
     v("inside", s.inside,
       {.required = {is("taken"), "generator = \"taken\""},
        .used = within,
@@ -666,9 +671,31 @@ void describe(V& v, WallSpec& s)
 }
 
 template <class V>
+void describe(V& v, GripSpec& s)
+{
+    const Condition by_region{s.at.empty(), "no `at`"};
+    v("name", s.name,
+      {.required = always, .meaning = "for `move`, `release` and the results; letters, digits, `_`, `-`"});
+    v("part", s.part, {.required = always, .meaning = "name of the part whose bodies it takes"});
+    v("at", s.at,
+      {.words = "first | last",
+       .used = {!s.at.empty()},
+       .meaning = "the first or the last sphere of a chain; left out: all in `region`"});
+    v.table("region", s.region,
+            {.required = by_region, .used = {s.by_region()}, .meaning = "bodies of the part whose centre is inside"});
+    v("hold", s.hold,
+      {.words = "x | y | z | rotation",
+       .meaning =
+           "what goes as the grip does; the rest is left to the forces. Without rotation its bodies turn freely"});
+    v("velocity", s.velocity, {.unit = "m/s", .meaning = "velocity, unless a stage says otherwise"});
+    v("ramp", s.ramp,
+      {.unit = "s", .range = not_negative, .meaning = "time over which the speed rises smoothly from 0"});
+}
+
+template <class V>
 void describe(V& v, StageMotion& s)
 {
-    v("wall", s.wall, {.required = always, .meaning = "name of a wall"});
+    v("wall", s.wall, {.required = always, .meaning = "name of a wall or grip"});
     v("velocity", s.velocity, {.unit = "m/s", .used = {!s.servo.given()}, .meaning = "its velocity in this stage"});
     v.table("servo", s.servo,
             {.used = {s.servo.given()}, .meaning = "instead of a velocity: the wall moves so that it holds a push"});
@@ -690,6 +717,9 @@ void describe(V& v, StageSpec& s)
             {.used = takes_time,
              .meaning = "walls that move in this stage; those not named keep their own motion. unload: left out, the "
                         "walls that moved last go back at the same speeds"});
+    v("release", s.release,
+      {.used = {takes_time.holds && !s.release.empty(), takes_time.holds ? "" : takes_time.text},
+       .meaning = "names of grips that let go at the beginning of this stage"});
     v("ramp", s.ramp,
       {.unit = "s",
        .range = not_negative,
@@ -991,6 +1021,8 @@ void describe(V& v, Case& c)
     v.array("bonds", c.bonds, {.meaning = "what holds grains together; without an entry that fits, they are loose"});
     v.array("contacts", c.contacts, {.meaning = "how grains push on each other and on walls"});
     v.array("walls", c.walls, {.meaning = "rigid bodies with a prescribed motion"});
+    v.array("grips", c.grips,
+            {.meaning = "bodies of a part that are held or driven, each set a wall of its own; test `custom`"});
     v.array("stages", c.stages,
             {.meaning = "test `custom`: one after the other, each until the first of its end conditions"});
     v.table("test", c.test, {.meaning = "a ready-made experiment: places platens, loads, measures"});

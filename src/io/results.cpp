@@ -9,6 +9,7 @@
 #include "io/plots.h"
 #include "io/pull_out_files.h"
 #include "io/view_script.h"
+#include "io/wall_history.h"
 #ifdef GF_HAVE_VTK
 #include "io/paraview.h"
 #endif
@@ -64,6 +65,7 @@ struct ResultFolder::Impl {
     fs::path folder;
     RunFacts facts;
     std::optional<HistoryCsv> history;
+    std::optional<WallHistory> walls;  // from its first row on
     std::optional<Hdf5Results> table;
     std::optional<PullOutFiles> pull_out;  // from its first row on
 #ifdef GF_HAVE_VTK
@@ -107,6 +109,12 @@ void ResultFolder::append_history(const HistoryRow& row)
 {
     impl_->history.value().append(row);
     impl_->table.value().append_history(row);
+}
+
+void ResultFolder::append_walls(const Model& model, const State& state)
+{
+    if (!impl_->walls) impl_->walls.emplace(impl_->folder / "walls.csv", impl_->facts, model);
+    impl_->walls->append(model, state);
 }
 
 void ResultFolder::write_snapshot(const Model& model, const State& state, const SnapshotFields& fields,

@@ -127,6 +127,8 @@ public:
     /// input.toml as given, resolved.toml; opens history.csv and results.h5.
     void begin(const RunFacts& facts, const std::string& input_text, const std::string& resolved_toml);
     void append_history(const HistoryRow& row);
+    /// A row of walls.csv.
+    void append_walls(const Model& model, const State& state);
     /// paraview/*.vtu|vtp + *.pvd, and the snapshot group of results.h5. `contacts`: write the contact polygons too.
     void write_snapshot(const Model& model, const State& state, const SnapshotFields& fields, bool contacts);
     /// A row of pull_out.csv, and a profile where one is due.

@@ -105,6 +105,7 @@ struct PartSpec {
     double size_ratio = 1.0;         ///< random_dense: largest over smallest diameter [-]
     double solid_fraction = 0.6;     ///< random_dense [-]
     std::string lattice_axis = "z";  ///< hcp: c axis: x | y | z
+    std::string lattice_origin = "site";  ///< hcp: site | channel: what lies on the line through the region's centre
     std::string inside;              ///< part whose spheres make room (chain) or are taken (taken)
     FibreSpec fibre;                 ///< chain
     std::vector<Vec3> copies;        ///< chain: the same again, moved by these [m]
@@ -196,6 +197,19 @@ struct WallSpec {
     double ramp = 0.0;              ///< time over which the speed rises smoothly [s]
 };
 
+/// Bodies of a part that go as told: a wall made of them.
+struct GripSpec {
+    std::string name;
+    std::string part;
+    std::string at;                                            ///< first | last sphere of a chain; "": by `region`
+    RegionSpec region;                                         ///< bodies whose centre is inside
+    std::vector<std::string> hold{"x", "y", "z", "rotation"};  ///< what they do not choose themselves
+    Vec3 velocity;                                             ///< [m/s]
+    double ramp = 0.0;                                         ///< time over which the speed rises smoothly [s]
+
+    bool by_region() const { return region.diameter > 0.0 || norm2(region.size) > 0.0; }
+};
+
 /// How a wall moves in a stage: at a velocity, or by a servo.
 struct StageMotion {
     std::string wall;
@@ -208,6 +222,7 @@ struct StageSpec {
     std::string name;
     std::string kind = "load";                     ///< settle | compact | bond | load | unload
     std::vector<StageMotion> motions;              ///< walls that are not named keep their own motion
+    std::vector<std::string> release;              ///< grips whose bodies are free from this stage on
     double ramp = 0.0;                             ///< [s]
     std::optional<Vec3> gravity;                   ///< default: control.gravity [m/s^2]
     std::optional<double> local_damping;           ///< default: control.local_damping, settle: 0.7 [-]
@@ -294,6 +309,7 @@ struct Case {
     std::vector<BondSpec> bonds;
     std::vector<ContactSpec> contacts;
     std::vector<WallSpec> walls;
+    std::vector<GripSpec> grips;
     std::vector<StageSpec> stages;
     TestSpec test;
     ControlSpec control;

@@ -182,12 +182,12 @@ TEST_CASE("the work of sphere bonds is the change of energy")
     for (const bool incremental : {false, true}) {
         const Books coarse = keep_books(tangle(unbreakable_bond(incremental)), 0.02, 500);
         const Books fine = keep_books(tangle(unbreakable_bond(incremental)), 0.01, 1000);
-        INFO(incremental << ' ' << coarse.elastic_error << ' ' << fine.elastic_error);
         CHECK(fine.work_error < 1e-12);
         CHECK(coarse.elastic_error / fine.elastic_error == Approx(4.0).margin(0.4));  // turning bonds: O(dt^2)
         CHECK(coarse.ledger_error < 1e-3);
         CHECK(fine.ledger_error < 3e-4);
     }
+    CHECK(keep_books(tangle(unbreakable_bond(false)), 1e-3, 10000).elastic_error < 1e-6);
     Assembly line = pair(unbreakable_bond(false), {2.0, 0.0, 0.0, 0.0});
     line.state.bodies.velocity.at(1) = {0.01, 0.0, 0.0};
     CHECK(keep_books(line, 0.1, 1000).elastic_error < 1e-12);  // a linear spring: exact
@@ -398,7 +398,7 @@ TEST_CASE("a driven chain with dashpots ends in rigid motion", "[slow]")
 {
     Assembly a = driven_chain(0.7);
     start(a.model, a.state);
-    run(a, 0.25, 20000);
+    run(a, 0.02, 250000);  // the lag of dashpots turns the slowest mode by 1e-3 until then
     CHECK(state_of(a).kinetic == Approx(0.99963).epsilon(1e-4));
     run(a, 0.25, 80000);
     CHECK(std::fabs(state_of(a).kinetic - 1.0) < 1e-6);
@@ -423,7 +423,7 @@ TEST_CASE("local damping keeps a driven chain from rigid motion", "[slow]")
             force += s.force / samples;
         }
         CHECK(kinetic > 1.02);
-        CHECK(force == Approx(drag[k]).epsilon(0.3));
+        CHECK(force == Approx(drag[k]).epsilon(0.5));
     }
 }
 
