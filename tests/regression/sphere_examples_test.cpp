@@ -107,32 +107,3 @@ TEST_CASE("example chain_fountain in short: the plate pushes a stiff chain up, n
     CHECK(reaction("chain_fountain") > 0.08);
     CHECK(std::fabs(reaction("chain_string")) < 0.04);  // counted in whole spheres, 0.012 each
 }
-
-TEST_CASE("example sphere_on_plane in short: a small sphere follows Hertz within its roughness", "[slow]")
-{
-    // radius 8: 3,000 spheres, contacts of 2 spacings; the example itself is what shows the exponent. At the first
-    // touch of single spheres there is next to no energy, of which the account must not lose a tenth: shorter steps
-    const Tables t = tables_of("sphere_on_plane/sphere_on_plane",
-                               "--set 'parts.ball.region.diameter=16' --set stages.press.duration=0.2 --set "
-                               "'walls.top.center=[3.164, 5.118, 6.004]' --set "
-                               "'walls.bottom.center=[-3.164, -5.118, -6.004]' --set control.time_step_safety=0.3");
-    const auto along = [&](const std::string& column, std::size_t i) {
-        const double n[3] = {0.372217, 0.602124, 0.706330};
-        double sum = 0.0;
-        for (const int k : {0, 1, 2}) {
-            const std::string name =
-                column.substr(0, column.find('?')) + "xyz"[k] + column.substr(column.find('?') + 1);
-            sum += n[k] * t.walls.column(name)[i];
-        }
-        return sum;
-    };
-    const std::size_t last = t.walls.rows() - 1;
-    const auto depth = [&](std::size_t i) {  // of Hertz, for the force of row i
-        return std::pow(0.75 * along("top_force_?_N", i) / (2.0 * std::sqrt(2.0) * 1e9 * std::sqrt(8.0)), 2.0 / 3.0);
-    };
-    const auto way = [&](std::size_t i) { return along("top_position_?_m", 0) - along("top_position_?_m", i); };
-    const std::size_t half = last / 2 + last / 4;
-    const double slope = (depth(last) - depth(half)) / (way(last) - way(half));
-    CHECK(slope == Approx(1.0).epsilon(0.15));
-    CHECK(t.walls.column("top_contacts").back() > 5);
-}
