@@ -411,13 +411,13 @@ private:
         r.split_grains = record_.splits;
         watch_rest(stage, r);
         folder_.append_history(r);
+        if (!model_.walls.empty() && (experiment_.kind == "custom" || experiment_.kind == "drop"))
+            folder_.append_walls(model_, state_);
         if (experiment_.pull_out) {
             experiment_.pull_out->path.push_back(pull_out_state(*experiment_.pull_out, state_));
             folder_.append_pull_out(experiment_.pull_out->path.back(), fibre_profile(*experiment_.pull_out, state_),
                                     case_.test.profiles_at);
         }
-        if (!model_.walls.empty() && (experiment_.kind == "custom" || experiment_.kind == "drop"))
-            folder_.append_walls(model_, state_);
         record_.rows.push_back(r);
         if (m.load > record_.peak_load) {
             record_.peak_load = m.load;

@@ -160,7 +160,8 @@ const Wrong wrong_values[] = {
     {B, "[output]\nevery = \"10 us\"", "output = 3",
      "error: FILE:33: test.output = 3: unknown key; known here: kind, platen_speed, platen, platen_radius, "
      "contact_half_width, direction, ends, grip_length, wall_friction, outer_span, inner_span, roller_radius, "
-     "notch_depth, crack_length, drop_height, side_gap, ramp, stop\n"},
+     "notch_depth, crack_length, drop_height, side_gap, fibre, matrix, support, control, damage_step, "
+     "displacement_step, slide_step, profiles_at, relaxed, ramp, stop\n"},
     {B, "stop = { load_drop = 0.5 }", "stop = 3", "error: FILE:31: test.stop = 3: is an integer; must be a table\n"},
     // names
     {B, "material = \"sic\"", "material = \"sci\"",
@@ -613,7 +614,7 @@ TEST_CASE("five mistakes are reported together, in the order of the file", "[inp
           "Pa such as \"1 Pa\"\n"
           "error: FILE:28: test.kind = \"brasilian\": must be one of \"brazilian\", "
           "\"uniaxial_compression\", \"uniaxial_tension\", \"three_point_bending\", \"four_point_bending\", "
-          "\"notched_beam\", \"dcb\", \"drop\", \"custom\"; did you mean \"brazilian\"?\n");
+          "\"notched_beam\", \"dcb\", \"drop\", \"pull_out\", \"custom\"; did you mean \"brazilian\"?\n");
 }
 
 TEST_CASE("wrong values of the command line", "[input]")
