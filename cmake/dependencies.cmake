@@ -34,5 +34,5 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(PLPLOT REQUIRED IMPORTED_TARGET plplot)
 
 if(GF_VTK)
-    find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
+    find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOLegacy IOXML)
 endif()

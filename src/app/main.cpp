@@ -93,9 +93,11 @@ int main(int argc, char** argv)
     run->add_flag("--no-report", o.no_report, "no plots at the end");
     run->footer("Example: grainfrac run disc.toml --threads 4 --out results/disc --force");
 
-    auto* generate = app.add_subcommand("generate", "only build the microstructure and write it");
+    auto* generate = app.add_subcommand("generate", "only make grains and spheres and write them");
     add_case_options(*generate, o);
-    generate->add_option("--out", o.out, "file to write (default: <stem>.microstructure.json)");
+    generate->add_option(
+        "--out", o.out,
+        "file to write (default: <stem>.microstructure.json for grains, <stem>.spheres.csv for spheres)");
     generate->add_flag("--force", o.force, "replace an existing file");
     generate->footer("Example: grainfrac generate microstructures/disc_187.toml");
 

@@ -5,6 +5,7 @@
 #include "app/signals.h"
 #include "contact/find_contacts.h"
 #include "experiment/bond_stage.h"
+#include "experiment/pull_out_path.h"
 #include "experiment/specimen.h"
 #include "fracture/clusters.h"
 #include "fracture/grain_stress.h"
@@ -44,6 +45,8 @@ constexpr double most_energy_error = 0.1;
 constexpr double negligible_energy = 1e-18;
 /// At rest the floor bears the weight within this share of it.
 constexpr double balanced = 0.1;
+/// First move of the grip over the fibre's length where no slip is told [-].
+constexpr double first_shift = 1e-5;
 /// Kinetic over elastic energy counts from this share of the peak load: at the very start both are nothing.
 constexpr double monitored_load = 0.1;
 
@@ -89,7 +92,10 @@ public:
             if (static_cast<int>(k) == experiment_.reference_stage) begin_reference();
             remember_begin(stage);
             if (state_.step == 0) record_row(stage);
-            ending = stage.bonds ? bond_stage(stage, k) : run_stage(stage);
+            if (experiment_.pull_out && experiment_.pull_out->quasi_static)
+                ending = run_path(stage);
+            else
+                ending = stage.bonds ? bond_stage(stage, k) : run_stage(stage);
             if (!finished_stage_) break;
             if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time) break;
         }
@@ -154,6 +160,82 @@ private:
             if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint)
                 checkpoint();
         }
+    }
+
+    /// A row of equilibria instead of time steps.
+    Ending run_path(const Stage& stage)
+    {
+        finished_stage_ = false;
+        const PullOut& p = *experiment_.pull_out;
+        PathSettings s;
+        double failure = 0.0;
+        for (const BondSpec& b : case_.bonds)
+            failure = std::max({failure, b.yield_slip.value_or(0.0), b.failure_slip.value_or(0.0)});
+        if (failure == 0.0) failure = first_shift * p.length;
+        s.by_damage = case_.test.control == "damage";
+        s.damage_step = case_.test.damage_step;
+        s.shift = case_.test.displacement_step.value_or(failure / 20.0);
+        s.slide = case_.test.slide_step.value_or(p.length / 60.0);
+        s.slides = case_.test.stop.slip.has_value();
+        s.relax.tolerance = case_.test.relaxed;
+        PullOutPath path(p, s, model_, state_);
+        while (true) {
+            const auto before = Clock::now();
+            const PullOutPath::Found found = path.next(model_, state_, [] { return pending_signal() != 0; });
+            record_.phases.steps += seconds_since(before);
+            if (const int signal = pending_signal(); signal != 0) {
+                checkpoint();
+                return {128 + signal, signal == 2 ? "interrupted by SIGINT" : "terminated by SIGTERM"};
+            }
+            if (found == PullOutPath::Found::end) {
+                finished_stage_ = true;
+                return {exit_code::done, "the interface is broken"};
+            }
+            if (found == PullOutPath::Found::not_at_rest) {
+                return {exit_code::unstable,
+                        fmt::format("unstable: no equilibrium after {} steps, the mean residual is {:.2g} of the mean "
+                                    "force of the bonds; raise test.relaxed, or hold what can move freely",
+                                    path.last().steps, path.last().residual)};
+            }
+            record_row(stage);
+            spdlog::debug("equilibrium {}: {} steps, residual {:.2g}", state_.time, path.last().steps,
+                          path.last().residual);
+            if (state_.time >= next_snapshot_) write_snapshot_at_rest();
+            if (const std::string why = why_unstable(); !why.empty()) return {exit_code::unstable, "unstable: " + why};
+            if (const std::string why = why_path_ended(); !why.empty()) {
+                finished_stage_ = true;
+                return {exit_code::done, why};
+            }
+            progress_.update(progress(stage));
+            if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint)
+                checkpoint();
+        }
+    }
+
+    std::string why_path_ended() const
+    {
+        const PullOutState& s = experiment_.pull_out->path.back();
+        const StopSpec& stop = case_.test.stop;
+        if (stop.damage && s.mean_damage >= *stop.damage)
+            return fmt::format("mean damage {:.4g} reached", s.mean_damage);
+        if (stop.slip && s.exit_slip >= *stop.slip) return fmt::format("slip {:.4g} m reached", s.exit_slip);
+        if (stop.strain && s.end_displacement >= *stop.strain * experiment_.pull_out->length)
+            return fmt::format("displacement {:.4g} m reached", s.end_displacement);
+        if (stop.time && state_.time >= *stop.time) return fmt::format("{:.0f} equilibria", state_.time);
+        if (stop.load_drop && broken_or_damaged() &&
+            record_.rows.back().load < (1.0 - *stop.load_drop) * record_.peak_load)
+            return fmt::format("load dropped by {:.0f} % from its peak {:.5g} N", 100.0 * *stop.load_drop,
+                               record_.peak_load);
+        return {};
+    }
+
+    /// Stresses come with the forces: they are found once more, without a step.
+    void write_snapshot_at_rest()
+    {
+        Model at_rest = model_;
+        at_rest.fracture_active = false;
+        step(at_rest, state_, 0.0, true);
+        write_snapshot();
     }
 
     /// Load, displacement, strain and peak of the test count from here.
@@ -328,6 +410,11 @@ private:
         r.split_grains = record_.splits;
         watch_rest(stage, r);
         folder_.append_history(r);
+        if (experiment_.pull_out) {
+            experiment_.pull_out->path.push_back(pull_out_state(*experiment_.pull_out, state_));
+            folder_.append_pull_out(experiment_.pull_out->path.back(), fibre_profile(*experiment_.pull_out, state_),
+                                    case_.test.profiles_at);
+        }
         record_.rows.push_back(r);
         if (m.load > record_.peak_load) {
             record_.peak_load = m.load;
@@ -474,6 +561,7 @@ private:
     /// The state in which the run ended is always shown: one more step, which also gathers stresses.
     void last_snapshot(const Stage& stage)
     {
+        if (experiment_.pull_out && experiment_.pull_out->quasi_static) return write_snapshot_at_rest();
         step(model_, state_, dt_, true);
         record_row(stage);
         write_snapshot();

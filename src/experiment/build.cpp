@@ -12,10 +12,13 @@
 #include "experiment/laws.h"
 #include "experiment/pre_cut.h"
 #include "experiment/precrack.h"
+#include "experiment/pull_out.h"
 #include "experiment/specimen.h"
+#include "experiment/sphere_bonds.h"
 #include "experiment/uniaxial.h"
 #include "experiment/walls.h"
 #include "generate/microstructure.h"
+#include "generate/packings.h"
 #include "model/validate.h"
 #include "motion/servo.h"
 #include "motion/step.h"
@@ -49,6 +52,7 @@ constexpr KnownTest known_tests[] = {{"brazilian", set_up_brazilian},
                                      {"notched_beam", set_up_bending},
                                      {"dcb", set_up_dcb},
                                      {"drop", set_up_drop},
+                                     {"pull_out", set_up_pull_out},
                                      {"custom", set_up_custom}};
 
 Experiment set_up_test(const Case& c, Model& model, State& state)
@@ -75,14 +79,19 @@ Case with_wall_friction(Case c)
     return c;
 }
 
-/// Mean diameter of the inscribed balls of each group's grains [m].
-std::vector<double> grain_spacing(const Model& model, const std::vector<GrainSpec>& grains)
+/// Mean diameter of the inscribed balls of each group's grains, or of its spheres [m].
+std::vector<double> grain_spacing(const Model& model, const std::vector<GrainSpec>& grains,
+                                  const std::vector<SphereSpec>& spheres)
 {
     std::vector<double> sum(model.groups.size(), 0.0);
     std::vector<int> count(model.groups.size(), 0);
     for (const GrainSpec& g : grains) {
         sum[static_cast<std::size_t>(g.group)] += 2.0 * inscribed_ball(g.shape).radius;
         ++count[static_cast<std::size_t>(g.group)];
+    }
+    for (const SphereSpec& s : spheres) {
+        sum[static_cast<std::size_t>(s.group)] += 2.0 * s.radius;
+        ++count[static_cast<std::size_t>(s.group)];
     }
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = count[i] > 0 ? sum[i] / count[i] : 0.0;
     return sum;
@@ -94,7 +103,8 @@ void check_bonds_exist(const Case& c, const Model& model, const State& state, co
     for (std::size_t a = 0; a < model.groups.size(); ++a) {
         if (table.rule_of(static_cast<int>(a), static_cast<int>(a)) != nullptr && state.bodies.size() > 1) {
             throw InputError("bonds[0].between",
-                             "no two grains of these parts share a face, so that no bond can be made");
+                             "no two grains of these parts share a face, and no two spheres touch, so that no bond can "
+                             "be made");
         }
     }
 }
@@ -170,7 +180,8 @@ Built build(const Case& c, Device device)
     for (const PartSpec& p : c.parts) model.groups.push_back({p.name, material_index(p.material), false});
 
     std::vector<GrainSpec> grains = generate_grains(c);
-    std::vector<double> spacing = grain_spacing(model, grains);
+    const std::vector<SphereSpec> spheres = generate_spheres(c);
+    std::vector<double> spacing = grain_spacing(model, grains, spheres);
     model.nominal_length = *std::max_element(spacing.begin(), spacing.end());
     const BondTable table(c, model);
     if (std::any_of(c.materials.begin(), c.materials.end(),
@@ -184,16 +195,24 @@ Built build(const Case& c, Device device)
             throw InputError(fmt::format("parts[{}]", grains[i].group), fmt::format("grain {}: {}", i, e.what()));
         }
     }
+    const int first_sphere = state.bodies.size();
+    for (const SphereSpec& s : spheres) add_sphere(model, state, s);
     const std::vector<Precrack> cracks = precracks(c, grains);
-    bond_shared_faces(model, state, grains, c.simulation.seed, [&](int a, int b) -> const BondRule* {
+    const auto rule_of = [&](int a, int b) -> const BondRule* {
+        const bool both_grains = a < first_sphere && b < first_sphere;
         for (const Precrack& crack : cracks) {
-            if (crack.cuts(grains[static_cast<std::size_t>(a)].site, grains[static_cast<std::size_t>(b)].site))
+            if (both_grains &&
+                crack.cuts(grains[static_cast<std::size_t>(a)].site, grains[static_cast<std::size_t>(b)].site))
                 return nullptr;
         }
-        if (const BondRule* rule = pre_cut.rule_of(a, b)) return rule;
+        if (const BondRule* rule = both_grains ? pre_cut.rule_of(a, b) : nullptr) return rule;
         return table.rule_of(state.bodies.group[a], state.bodies.group[b]);
-    });
+    };
+    bond_shared_faces(model, state, grains, c.simulation.seed, rule_of,
+                      fibre_patches(c, model, state, spheres, first_sphere, table));
     pre_cut.finish(state);
+    finish_fibre_interfaces(c, state, spheres, first_sphere, table);
+    bond_spheres(c, model, state, spheres, first_sphere, table);
     check_bonds_exist(c, model, state, table);
     check_snap_back(model, state, table);
 

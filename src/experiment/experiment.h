@@ -80,6 +80,29 @@ struct NamedResult {
     double value = 0.0;
 };
 
+/// One state of the pull-out.
+struct PullOutState {
+    double end_stress = 0.0;        ///< pull over the fibre's section [Pa]
+    double exit_slip = 0.0;         ///< where the fibre leaves the matrix [m]
+    double end_displacement = 0.0;  ///< of the grip against the mean of the support [m]
+    double embedded_slip = 0.0;     ///< at the embedded end [m]
+    double mean_damage = 0.0;       ///< over the area of the interface [-]
+};
+
+/// What a pull-out test is about.
+struct PullOut {
+    int fibre_group = -1, matrix_group = -1;
+    int grip_wall = -1, support_wall = -1;
+    Vec3 direction;                    ///< of the pull, along an axis [-]
+    double embedded_end = 0.0;         ///< along the direction [m]
+    double length = 0.0;               ///< L [m]
+    double piece = 0.0;                ///< distance of the fibre's levels [m]
+    double section = 0.0;              ///< of all fibres together [m^2]
+    double young_modulus = 0.0;        ///< of the fibre [Pa]
+    bool quasi_static = false;         ///< a path of equilibria, else time steps
+    std::vector<PullOutState> path{};  ///< so far
+};
+
 struct Experiment {
     std::string kind;
     Specimen specimen;
@@ -91,6 +114,7 @@ struct Experiment {
     double speed_of_each_wall = 0.0;  ///< that the test drives; 0: not known [m/s]
     bool quasi_static = true;         ///< else inertia belongs to the test, and nothing warns of it
     std::vector<NamedResult> facts;   ///< lengths that the test chose or found, for summary.json
+    std::optional<PullOut> pull_out;  ///< kind pull_out
     /// What the curve says beyond its peak; nullptr: nothing.
     std::vector<NamedResult> (*results)(const Experiment&, const std::vector<CurvePoint>& curve) = nullptr;
 };

@@ -56,6 +56,22 @@ InterfaceLaw interface_law(const BondSpec& s)
     return l;
 }
 
+/// Shear only, with yield and failure slip (physics/bonded_spheres 8): in the energy norm of the law the same line.
+InterfaceLaw fibre_law(const BondSpec& s)
+{
+    InterfaceLaw l{};
+    const double most = 1e300;  // neither opening nor an unset slip is a limit
+    l.tensile_strength = most;
+    l.cohesion = s.yield_slip ? s.shear_stiffness * *s.yield_slip : most;
+    l.residual_friction = s.residual_friction.value_or(s.friction);
+    l.residual_shear = s.residual_shear;
+    l.fracture_energy_I = l.fracture_energy_II = s.failure_slip ? 0.5 * l.cohesion * *s.failure_slip : most;
+    l.mixed_mode_exponent = 2.0;
+    l.softening = s.failure_slip ? Softening::bilinear : Softening::brittle;
+    l.failure = s.yield_slip ? FailureUnit::point : FailureUnit::unbreakable;
+    return l;
+}
+
 ParallelLaw parallel_law(const BondSpec& s)
 {
     return {s.tensile_strength,    s.cohesion,       s.friction,
@@ -93,6 +109,19 @@ NetworkStiffness network_stiffness(const std::string& kind, double E, double nu,
     return {E, shear_ratio.value_or(1.0)};
 }
 
+namespace {
+
+BondRule::Kind kind_of(const Case& c, int group_a, int group_b, const std::string& law)
+{
+    const auto spheres = [&](int g) { return c.parts[static_cast<std::size_t>(g)].kind == "spheres"; };
+    if (spheres(group_a) || spheres(group_b))
+        return law == "interface" ? BondRule::Kind::fibre : BondRule::Kind::sphere;
+    if (law == "interface") return BondRule::Kind::interface;
+    return law == "parallel" ? BondRule::Kind::parallel : BondRule::Kind::point;
+}
+
+}  // namespace
+
 BondTable::BondTable(const Case& c, Model& model, const std::string& made_in)
     : groups_(static_cast<int>(model.groups.size())), of_pair_(model.groups.size() * model.groups.size(), -1)
 {
@@ -118,16 +147,23 @@ BondTable::BondTable(const Case& c, Model& model, const std::string& made_in)
             const NetworkStiffness k =
                 network_stiffness(s.elasticity, E, 0.5 * (ma.poisson_ratio + mb.poisson_ratio), s.shear_ratio);
             BondRule r;
-            r.kind =
-                s.law == "interface" ? BondRule::Kind::interface : (s.law == "parallel" ? BondRule::Kind::parallel : BondRule::Kind::point);
+            r.kind = kind_of(c, a, b, s.law);
             if (r.kind == BondRule::Kind::interface) {
                 r.law = model.interface_laws.size();
                 model.interface_laws.host().push_back(interface_law(s));
+            } else if (r.kind == BondRule::Kind::fibre) {
+                r.law = model.interface_laws.size();
+                model.interface_laws.host().push_back(fibre_law(s));
+                r.shear_stiffness = s.shear_stiffness;
+            } else if (r.kind == BondRule::Kind::sphere) {
+                r.law = model.sphere_bond_laws.size();
+                model.sphere_bond_laws.host().push_back(
+                    {parallel_law(s), s.damping, s.law == "spring" || s.form == "incremental"});
             } else {
                 r.law = model.parallel_laws.size();
                 model.parallel_laws.host().push_back(parallel_law(s));
             }
-            r.quadrature = rule_named(s.quadrature);
+            r.quadrature = r.kind == BondRule::Kind::fibre ? QuadratureRule::centroid : rule_named(s.quadrature);
             r.damping = s.damping;
             r.normal_stiffness = s.normal_stiffness;
             r.modulus = k.modulus;

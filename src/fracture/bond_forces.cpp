@@ -2,20 +2,13 @@
 #include "fracture/bond_forces.h"
 
 #include "contact/linear_contact.h"
+#include "fracture/interface_frame.h"
 #include "gpu/parallel.h"
 #include "model/views.h"
 
 namespace grainfrac {
 
 namespace {
-
-/// Jump of an interface in its own frame: mean normal, mean first tangent, second tangent. Using the mean of both faces
-/// makes the law the same whichever grain is called a.
-struct InterfaceFrame {
-    Mat3 rotation_a, rotation_b;
-    Vec3 between;  // c_b - c_a [m]
-    Vec3 n, t1, t2;
-};
 
 struct InterfaceForces {
     static constexpr const char* name = "interface forces";
@@ -41,14 +34,13 @@ struct InterfaceForces {
 
     GF_FN InterfaceFrame frame(int i) const
     {
-        InterfaceFrame f;
-        f.rotation_a = to_matrix(body.orientation[a[i]]);
-        f.rotation_b = to_matrix(body.orientation[b[i]]);
-        f.between = body.position[b[i]] - body.position[a[i]];
-        f.n = normalized(f.rotation_a * normal_a[i] + f.rotation_b * normal_b[i]);
-        f.t1 = normalized(tangential(f.rotation_a * tangent_a[i] + f.rotation_b * tangent_b[i], f.n));
-        f.t2 = cross(f.n, f.t1);
-        return f;
+        return {body.orientation[a[i]],
+                body.orientation[b[i]],
+                body.position[b[i]] - body.position[a[i]],
+                normal_a[i],
+                normal_b[i],
+                tangent_a[i],
+                tangent_b[i]};
     }
 
     /// Whole-face failure: true when a corner of the face meets the onset surface.
@@ -87,7 +79,7 @@ struct InterfaceForces {
         const bool may_fail = fracture_active && l.failure != FailureUnit::unbreakable;
         const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
         const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
-        const double c_n = dashpots_active ? normal_damping[i] : 0.0, c_s = shear_damping[i];
+        const double c_n = dashpots_active ? normal_damping[i] : 0.0, c_s = dashpots_active ? shear_damping[i] : 0.0;
         const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
         const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
 
@@ -104,7 +96,7 @@ struct InterfaceForces {
             const double w = weight[q];
             const Vec3 arm_a = f.rotation_a * point_a[q], arm_b = f.rotation_b * point_b[q];
             const Vec3 jump = f.between + arm_b - arm_a;
-            const double d_n = dot(jump, f.n), d_1 = dot(jump, f.t1), d_2 = dot(jump, f.t2);
+            const auto [d_n, d_1, d_2] = f.in_frame(jump);
             InterfacePointState p;
             if (point_onset[q] > 0.0)
                 p = {point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
@@ -137,7 +129,7 @@ struct InterfaceForces {
             torque_a += cross(middle_a, t);
             torque_b -= cross(middle_b, t);
             Vec3 t_all = t;
-            if (c_n > 0.0 && p.damage < 1.0) {
+            if (c_n + c_s > 0.0 && p.damage < 1.0) {
                 const Vec3 v = (w * (1.0 - p.damage)) * ((c_n - c_s) * rate_n * f.n + c_s * rate);
                 drag += v;
                 drag_torque_a += cross(middle_a, v);

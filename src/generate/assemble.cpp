@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -96,7 +97,7 @@ struct BondFace {
     const SharedFace* face = nullptr;
     const BondRule* rule = nullptr;
     PolygonMoments moments;
-    double normal_stiffness = 0.0;  // k_n [Pa/m]
+    double normal_stiffness = 0.0, shear_stiffness = 0.0;  // k_n, k_s [Pa/m]
     double strength = 1.0, toughness = 1.0;
 };
 
@@ -106,7 +107,7 @@ public:
 
     void make(const BondFace& f)
     {
-        if (f.rule->kind == BondRule::Kind::interface) {
+        if (f.rule->kind == BondRule::Kind::interface || f.rule->kind == BondRule::Kind::fibre) {
             interface(f);
         } else if (f.rule->kind == BondRule::Kind::parallel) {
             parallel(f, f.moments.centroid, f.rule->bond_radius.value_or(std::sqrt(f.moments.area / std::numbers::pi)));
@@ -151,7 +152,7 @@ private:
         at(i.tangent_a, n) = turned(a, f.moments.axis1);
         at(i.tangent_b, n) = turned(b, f.moments.axis1);
         at(i.area, n) = f.moments.area;
-        const double k_n = f.normal_stiffness, k_s = k_n * f.rule->shear_ratio;
+        const double k_n = f.normal_stiffness, k_s = f.shear_stiffness;
         at(i.normal_stiffness, n) = k_n;
         at(i.shear_stiffness, n) = k_s;
         const double per_area = 2.0 * f.rule->damping / f.moments.area;
@@ -194,7 +195,7 @@ private:
         at(p.normal_a, n) = turned(a, f.face->normal);
         at(p.normal_b, n) = turned(b, f.face->normal);
         at(p.radius, n) = radius;
-        const double k_n = f.normal_stiffness, k_s = k_n * f.rule->shear_ratio, area = CircularSection(radius).area;
+        const double k_n = f.normal_stiffness, k_s = f.shear_stiffness, area = CircularSection(radius).area;
         at(p.normal_stiffness, n) = k_n;
         at(p.shear_stiffness, n) = k_s;
         at(p.normal_damping, n) = 2.0 * f.rule->damping * std::sqrt(k_n * area * pair_mass(a, b));
@@ -222,7 +223,7 @@ void scatter(const Model& model, const State& state, std::int64_t seed, double m
             // A bilinear point must keep lambda_f > lambda_0: sigma_c <= sqrt(1.8 k_n G_I) when G_c does not scale too.
             const InterfaceLaw& law = model.interface_laws[rule.law];
             if (law.softening == Softening::bilinear && !rule.weibull_scales_energy) {
-                const double k_s = f.normal_stiffness * rule.shear_ratio;
+                const double k_s = f.shear_stiffness;
                 factor = std::min({factor,
                                    std::sqrt(1.8 * f.normal_stiffness * law.fracture_energy_I) / law.tensile_strength,
                                    std::sqrt(1.8 * k_s * law.fracture_energy_II) / law.cohesion});
@@ -242,7 +243,7 @@ void scatter(const Model& model, const State& state, std::int64_t seed, double m
 }  // namespace
 
 int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& grains, std::int64_t seed,
-                      const std::function<const BondRule*(int, int)>& rule_of)
+                      const std::function<const BondRule*(int, int)>& rule_of, std::vector<SharedFace> patches)
 {
     std::vector<Polyhedron> shapes;
     shapes.reserve(grains.size());
@@ -252,7 +253,12 @@ int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& 
             grains[static_cast<std::size_t>(face.b)].site - grains[static_cast<std::size_t>(face.a)].site;
         return std::fabs(dot(between, face.normal));
     };
-    return bond_faces(model, state, find_shared_faces(shapes), distance, seed, rule_of);
+    std::vector<SharedFace> faces = find_shared_faces(shapes);
+    faces.insert(faces.end(), std::make_move_iterator(patches.begin()), std::make_move_iterator(patches.end()));
+    std::stable_sort(faces.begin(), faces.end(), [](const SharedFace& x, const SharedFace& y) {
+        return std::pair{x.a, x.b} < std::pair{y.a, y.b};
+    });
+    return bond_faces(model, state, faces, distance, seed, rule_of);
 }
 
 int bond_faces(Model& model, State& state, const std::vector<SharedFace>& faces,
@@ -265,7 +271,13 @@ int bond_faces(Model& model, State& state, const std::vector<SharedFace>& faces,
         const BondRule* rule = rule_of(face.a, face.b);
         if (rule == nullptr) continue;
         BondFace f{&face, rule, polygon_moments(face.polygon)};
-        f.normal_stiffness = rule->normal_stiffness.value_or(rule->modulus / distance(face));
+        if (rule->kind == BondRule::Kind::fibre) {
+            f.normal_stiffness = rule->normal_stiffness.value_or(0.0);
+            f.shear_stiffness = rule->shear_stiffness;
+        } else {
+            f.normal_stiffness = rule->normal_stiffness.value_or(rule->modulus / distance(face));
+            f.shear_stiffness = f.normal_stiffness * rule->shear_ratio;
+        }
         areas[rule].first += f.moments.area;
         areas[rule].second += 1;
         bonds.push_back(f);

@@ -39,13 +39,14 @@ int add_wall_round(Model& model, State& state, int wall, int group, const Vec3& 
 
 /// How to make the bonds of one kind of grain pair.
 struct BondRule {
-    enum class Kind { interface, parallel, point } kind = Kind::interface;
-    std::int32_t law = 0;  ///< into Model::interface_laws or parallel_laws
+    enum class Kind { interface, parallel, point, sphere, fibre } kind = Kind::interface;
+    std::int32_t law = 0;  ///< into Model::interface_laws, parallel_laws or sphere_bond_laws
     QuadratureRule quadrature = QuadratureRule::automatic;
     double damping = 0.0;                    ///< zeta [-]
     std::optional<double> normal_stiffness;  ///< [Pa/m]; else modulus/h
     double modulus = 0.0;                    ///< k_n h of the pair [Pa]
     double shear_ratio = 1.0;                ///< k_s/k_n [-]
+    double shear_stiffness = 0.0;            ///< fibre: K_0; its k_n is normal_stiffness or 0 [Pa/m]
     std::optional<double> bond_radius;       ///< parallel and point bonds [m]
     std::optional<double> weibull_modulus;
     std::optional<double> weibull_area;  ///< [m^2]; else the mean face of this rule
@@ -56,9 +57,9 @@ struct BondRule {
 
 /// Bonds on every face that two grains share. `rule_of(a, b)` names the rule of a pair of bodies, nullptr: no bond.
 /// `sites` and `grains`: of each body, in order of index. Scatter follows from the seed and the pair of ids alone.
-/// @return number of bonds made
+/// `patches`: of fibres' surfaces, besides. @return number of bonds made
 int bond_shared_faces(Model& model, State& state, const std::vector<GrainSpec>& grains, std::int64_t seed,
-                      const std::function<const BondRule*(int, int)>& rule_of);
+                      const std::function<const BondRule*(int, int)>& rule_of, std::vector<SharedFace> patches = {});
 
 /// The same for faces between bodies where they are now, sorted by pair. `distance`: of the two sites across a face
 /// [m].

@@ -106,12 +106,13 @@ FibreNodes polyline_nodes(const std::vector<Vec3>& corners, double spacing)
     FibreNodes nodes;
     nodes.piece = arc.back() / n;
     std::size_t j = 1;
-    for (int i = 0; i <= n; ++i) {
+    for (int i = 0; i < n; ++i) {
         const double s = arc.back() * i / n;
         while (j + 1 < arc.size() && arc[j] < s) ++j;
         nodes.position.push_back(corners[j - 1] +
                                  (s - arc[j - 1]) / (arc[j] - arc[j - 1]) * (corners[j] - corners[j - 1]));
     }
+    nodes.position.push_back(corners.back());
     return nodes;
 }
 

@@ -3,11 +3,14 @@
 
 #include "generate/fibre_line.h"
 #include "generate/lattice.h"
+#include "generate/random_packing.h"
+#include "generate/sphere_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace grainfrac {
@@ -59,21 +62,45 @@ Spheres chain_spheres(const PartSpec& p, const SphereSpec& model, std::int32_t& 
     return all;
 }
 
+/// Of the file those in the region, if there is one.
+std::vector<Ball> file_balls(const Case& c, const PartSpec& p)
+{
+    std::vector<Ball> balls;
+    try {
+        balls = read_spheres(std::filesystem::path(c.file).parent_path() / p.file, p.name);
+    } catch (const std::runtime_error& e) {
+        throw InputError("file", e.what());
+    }
+    const SphereRegion region(p.region);
+    if (norm2(region.half) > 0.0) {
+        std::erase_if(balls, [&](const Ball& b) { return !region.contains(b.center); });
+        if (balls.empty()) throw InputError("region", fmt::format("no sphere of \"{}\" has its centre in it", p.file));
+    }
+    return balls;
+}
+
 Spheres packed_spheres(const Case& c, std::size_t part)
 {
     const PartSpec& p = c.parts[part];
     const SphereRegion region(p.region);
-    SphereSpec s = prototype(c, part);
+    const SphereSpec model = prototype(c, part);
     Spheres all;
-    const auto add = [&](const std::vector<Vec3>& sites) {
-        for (const Vec3& x : sites) {
-            s.position = x;
-            all.push_back(s);
-        }
+    const auto add = [&](const Vec3& center, double radius) {
+        all.push_back(model);
+        all.back().position = center;
+        all.back().radius = radius;
     };
-    if (p.generator == "hcp") add(hcp_sites(region, p.diameter, axis_index(p.lattice_axis)));
-    if (p.generator == "fcc") add(fcc_sites(region, p.diameter));
-    if (all.empty()) throw InputError("generator", "makes no spheres in this version");
+    if (p.generator == "hcp" || p.generator == "fcc") {
+        const bool hcp = p.generator == "hcp";
+        for (const Vec3& x :
+             hcp ? hcp_sites(region, p.diameter, axis_index(p.lattice_axis)) : fcc_sites(region, p.diameter)) {
+            add(x, model.radius);
+        }
+    } else {
+        const RandomPackingSpec random{region,           p.diameter,        p.size_ratio,
+                                       p.solid_fraction, c.simulation.seed, static_cast<std::uint32_t>(part)};
+        for (const Ball& b : p.generator == "file" ? file_balls(c, p) : random_packing(random)) add(b.center, b.radius);
+    }
     return all;
 }
 

@@ -51,23 +51,31 @@ bool SphereRegion::contains(const Vec3& x) const
     return std::fabs(r.x) <= half.x + slack && std::fabs(r.y) <= half.y + slack && std::fabs(r.z) <= half.z + slack;
 }
 
-Vec3 SphereRegion::drawn_in(const Vec3& x, double r) const
+Vec3 SphereRegion::shift_inside(const Vec3& x, double r) const
 {
-    const auto along = [&](double at, int k) { return std::clamp(at, -(half[k] - r), half[k] - r); };
-    const auto towards_center = [&](const Vec3& a) {
+    const Vec3 at = x - center;
+    const auto along = [&](int k) { return std::clamp(at[k], -(half[k] - r), half[k] - r) - at[k]; };
+    const auto inwards = [&](const Vec3& a) {
         const double n = norm(a);
-        return n > radius - r ? (radius - r) / n * a : a;
+        return n > radius - r ? ((radius - r) / n - 1.0) * a : Vec3{};
     };
-    Vec3 a = x - center;
-    if (shape == Shape::ball) return center + towards_center(a);
+    if (shape == Shape::ball) return inwards(at);
     if (shape == Shape::cylinder) {
-        const double height = along(a[axis], axis);
-        a[axis] = 0.0;
-        a = towards_center(a);
-        a[axis] = height;
-        return center + a;
+        Vec3 across = at;
+        across[axis] = 0.0;
+        Vec3 shift = inwards(across);
+        shift[axis] = along(axis);
+        return shift;
     }
-    return center + Vec3{along(a.x, 0), along(a.y, 1), along(a.z, 2)};
+    return {along(0), along(1), along(2)};
+}
+
+double SphereRegion::surface() const
+{
+    constexpr double pi = std::numbers::pi;
+    if (shape == Shape::cylinder) return 2.0 * pi * radius * (radius + 2.0 * half[axis]);
+    if (shape == Shape::ball) return 4.0 * pi * radius * radius;
+    return 8.0 * (half.x * half.y + half.y * half.z + half.z * half.x);
 }
 
 }  // namespace grainfrac

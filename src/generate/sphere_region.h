@@ -6,7 +6,7 @@
 
 namespace grainfrac {
 
-/// Point of view of one region: a box, or a cylinder or ball of radius `radius`.
+/// A box, or a cylinder or ball of radius `radius`.
 struct SphereRegion {
     enum class Shape { box, cylinder, ball } shape = Shape::box;
     Vec3 center;          ///< [m]
@@ -20,8 +20,10 @@ struct SphereRegion {
     double thinnest() const;
     /// Inclusive; what is beyond the surface by 1e-9 of the region's size is inside still.
     bool contains(const Vec3& x) const;
-    /// The nearest point for the centre of a sphere of radius r that is to lie wholly inside; x itself if it does.
-    Vec3 drawn_in(const Vec3& x, double r) const;
+    /// Shortest shift after which a sphere of radius r about x lies wholly inside; exactly zero if it does.
+    Vec3 shift_inside(const Vec3& x, double r) const;
+    /// Area of the surface [m^2].
+    double surface() const;
 };
 
 /// Index of the axis that "x", "y" or "z" names.

@@ -204,6 +204,7 @@ std::vector<QuadraturePoint> quadrature(const std::vector<Vec3>& polygon, Quadra
     if (polygon.size() < 3) throw std::invalid_argument("quadrature: a polygon needs three vertices");
     const PolygonMoments m = polygon_moments(polygon);
     if (!(m.area > 0.0)) throw std::invalid_argument("quadrature: the polygon has zero area");
+    if (rule == QuadratureRule::centroid) return {{m.centroid, m.area}};
     if (rule == QuadratureRule::cross) return cross_points(m);
     if (rule == QuadratureRule::fan3) return fan_points(polygon, m, midside_rule);
     if (rule == QuadratureRule::fan7 || polygon.size() != 4) return fan_points(polygon, m, seven_point_rule);

@@ -14,6 +14,7 @@ enum class QuadratureRule {
     cross,      ///< equimomental cross: centroid +- sqrt(2) rho_k e_k, weights A/4; exact to degree 2
     fan3,       ///< fan triangles, 3 midside points, shared points merged; degree 2
     fan7,       ///< fan triangles, vertices 1/20, midsides 2/15, centroid 9/20, shared points merged; degree 3
+    centroid,   ///< one point, exact to degree 1: a patch of a fibre's surface, whose centre does not tilt
     gauss2,
     gauss3,
     gauss4,

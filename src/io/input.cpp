@@ -4,6 +4,7 @@
 #include "io/input_check.h"
 #include "io/input_document.h"
 #include "io/input_schema.h"
+#include "io/sphere_formats.h"
 #include "model/units.h"
 
 #include <fmt/format.h>
@@ -386,6 +387,7 @@ std::string shortened(const std::string& text)
 
 Case read_case(const std::string& file, const std::vector<std::string>& overrides, Places& places_out)
 {
+    enter_sphere_formats();
     places_out.clear();
     Problems problems;
     Places wrong_overrides;

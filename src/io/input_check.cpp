@@ -216,10 +216,8 @@ private:
         }
         if (given(path + ".orientation"))
             fail(path + ".orientation", "has no meaning here; it goes with kind = \"grains\"");
-        if ((p.generator == "chain" || file) && given(path + ".region")) {
-            fail(path + ".region",
-                 "has no meaning here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"");
-        }
+        if (p.generator == "chain" && given(path + ".region"))
+            fail(path + ".region", "has no meaning here; it goes with any generator but \"chain\"");
         if (given(path + ".inside") && right(path + ".inside")) host(p, path + ".inside");
         if (p.generator == "chain") chain(p, path);
         if (p.generator == "random_dense" && right(path + ".solid_fraction") && right(path + ".size_ratio")) {
@@ -309,6 +307,7 @@ private:
     void bond(const BondSpec& b, const std::string& path)
     {
         elasticity(b, path);
+        of_spheres(b, path);
         if (given(path + ".made_in") && right(path + ".made_in") && right("stages") &&
             std::find(bond_stages_.begin(), bond_stages_.end(), b.made_in) == bond_stages_.end()) {
             fail(path + ".made_in", "no stage of kind = \"bond\" has this name; " + choice(b.made_in, bond_stages_));
@@ -336,6 +335,36 @@ private:
                  fmt::format("must be <= {:.6g} Pa, cohesion / friction, with onset = \"mohr_coulomb\"",
                              b.cohesion / b.friction));
         }
+    }
+
+    bool is_a(const char* kind, const std::string& name) const
+    {
+        return std::any_of(c_.parts.begin(), c_.parts.end(),
+                           [&](const PartSpec& p) { return (p.name == name || p.material == name) && p.kind == kind; });
+    }
+
+    /// Laws by what they join: spheres have no faces, grains no centre that a spring could hang on.
+    void of_spheres(const BondSpec& b, const std::string& path)
+    {
+        if (!right(path) || !right("parts")) return;
+        const bool no_grains =
+            std::all_of(c_.parts.begin(), c_.parts.end(), [](const PartSpec& p) { return p.kind == "spheres"; });
+        const bool some_sphere = is_a("spheres", b.between[0]) || is_a("spheres", b.between[1]) || no_grains;
+        const bool some_grain = is_a("grains", b.between[0]) || is_a("grains", b.between[1]);
+        if (b.law == "spring" && !some_sphere)
+            fail(path + ".law", "\"spring\" joins spheres; grains take \"interface\", \"parallel\" or \"point\"");
+        if (b.law == "point" && some_sphere)
+            fail(path + ".law", "\"point\" joins grains; spheres take \"parallel\" or \"spring\"");
+        if (b.law != "interface" && some_sphere && some_grain)
+            fail(path + ".law", fmt::format("\"{}\" cannot join spheres and grains; use \"interface\"", b.law));
+        if (b.law == "interface" && some_sphere && b.shear_stiffness == 0.0)
+            fail(path + ".shear_stiffness", "missing; required for the interface of a fibre, such as \"1e9 Pa/m\"");
+        if (b.shear_ratio && *b.shear_ratio == 0.0 && !some_sphere && right(path + ".shear_ratio"))
+            fail(path + ".shear_ratio", "must be > 0 between grains");
+        if (b.failure_slip && !b.yield_slip && right(path + ".failure_slip"))
+            fail(path + ".yield_slip", "missing; required with failure_slip");
+        if (b.failure_slip && b.yield_slip && *b.failure_slip <= *b.yield_slip && right(path + ".failure_slip"))
+            fail(path + ".failure_slip", fmt::format("must be > {:.6g} m, the yield_slip", *b.yield_slip));
     }
 
     /// The rules of "auto" give a negative shear stiffness beyond a certain Poisson's ratio (physics/grains 9).
@@ -493,7 +522,9 @@ private:
                 if (t.stop.load_drop) fail("test.stop.load_drop", "has no meaning in a drop test; use time or rest");
                 if (t.stop.strain) fail("test.stop.strain", "has no meaning in a drop test; use time or rest");
             } else {
-                if (!t.stop.load_drop && !t.stop.strain && !t.stop.time)
+                const bool ends_itself = t.kind == "pull_out" && t.control == "damage";
+                const bool has_end = t.stop.load_drop || t.stop.strain || t.stop.time || t.stop.slip || t.stop.damage;
+                if (!ends_itself && !has_end)
                     fail("test.stop", "the run would never end; required: at least one of load_drop, strain, time");
                 if (t.stop.rest) fail("test.stop.rest", "has no meaning here; it goes with kind = \"drop\"");
             }
@@ -501,6 +532,35 @@ private:
         if (t.kind == "brazilian") brazilian();
         if (t.kind == "four_point_bending" || t.kind == "notched_beam") spans();
         if (t.kind == "drop") drop();
+        if (t.kind == "pull_out") pull_out();
+    }
+
+    void pull_out()
+    {
+        const TestSpec& t = c_.test;
+        const auto named = [&](const std::string& name) {
+            return std::find_if(c_.parts.begin(), c_.parts.end(), [&](const PartSpec& p) { return p.name == name; });
+        };
+        std::vector<std::string> names;
+        for (const PartSpec& p : c_.parts) names.push_back(p.name);
+        for (const auto& [key, name] : {std::pair<std::string, std::string>{"test.fibre", t.fibre},
+                                        std::pair<std::string, std::string>{"test.matrix", t.matrix}}) {
+            if (given(key) && right(key) && right("parts") && named(name) == c_.parts.end())
+                fail(key, "no such part; " + choice(name, names));
+        }
+        if (right("test.fibre") && right("parts") && named(t.fibre) != c_.parts.end()) {
+            const PartSpec& p = *named(t.fibre);
+            if (p.kind != "spheres" || (p.generator != "chain" && p.generator != "taken"))
+                fail("test.fibre", "must be a part of spheres with generator = \"chain\" or \"taken\"");
+            if (t.fibre == t.matrix && right("test.matrix"))
+                fail("test.matrix", "must be another part than test.fibre");
+        }
+        if (norm2(c_.control.gravity) > 0.0 && t.control != "speed" && right("control.gravity"))
+            fail("control.gravity", "has no place in a row of equilibria; use test.control = \"speed\"");
+        const bool cleaves = std::any_of(c_.materials.begin(), c_.materials.end(),
+                                         [](const MaterialSpec& m) { return !m.cleavage.planes.empty(); });
+        if (cleaves && t.control != "speed" && right("test.control"))
+            fail("test.control", "must be \"speed\" where grains cleave");
     }
 
     void spans()

@@ -378,8 +378,10 @@ void describe(V& v, PartSpec& s)
     v.table("region", s.region,
             {.required = placed,
              .used = {placed.holds || has_region},
-             .meaning = "where the centres of grains or spheres are; random_dense: what the spheres fill; a brazilian "
-                        "test takes the specimen's size from it"});
+             .meaning =
+                 "where the centres of grains or spheres are; random_dense: what the spheres fill; file: left out, all "
+                 "are taken; a brazilian "
+                 "test takes the specimen's size from it"});
     v("at_region_boundary", s.at_region_boundary,
       {.words = "keep | cut",
        .used = prisms,
@@ -396,21 +398,77 @@ void describe(V& v, PartSpec& s)
 template <class V>
 void describe(V& v, BondSpec& s)
 {
-    const bool breakable = s.failure != "unbreakable", has_softening = s.law == "interface";
+    // the interface of a fibre is told by its stiffness in shear
+    const bool of_fibre = s.law == "interface" && s.shear_stiffness > 0.0;
+    const bool breakable = s.failure != "unbreakable" && !of_fibre, has_softening = s.law == "interface";
+    const bool of_spheres = s.law == "parallel" || s.law == "spring";
+    const Condition fibre{of_fibre,
+                          of_fibre ? "" : "law = \"interface\" and shear_stiffness, the interface of a fibre"},
+        spheres{of_spheres, "law = \"parallel\" or \"spring\""};
     const Condition strengths{breakable, "failure = \"point\" or \"face\""};
     const Condition energies{breakable && has_softening && s.softening == "bilinear", "softening = \"bilinear\""};
     v("between", s.between, {.meaning = "two names of parts, materials or walls, or `*`"});
     v("law", s.law,
-      {.words = "interface | parallel | point",
-       .meaning = "interface: integrated over the shared face; parallel: circular parallel bond; point: one a corner "
-                  "of the face",
+      {.words = "interface | parallel | spring | point",
+       .meaning = "interface: integrated over the shared face, or the surface of a fibre; parallel: circular parallel "
+                  "bond; spring: spheres, without moments (LSDP); point: one a corner of the face",
        .source = "parallel: Potyondy & Cundall 2004; point: Saleme Ruiz 2016, 2.3.3"});
+    v("form", s.form,
+      {.words = "total | incremental",
+       .used = {s.law == "parallel", "law = \"parallel\""},
+       .meaning = "parallel between spheres: total: from where they are, without drift; incremental: with a history",
+       .source = "total: Kuzkin & Asonov 2012"});
+    v("gap_factor", s.gap_factor,
+      {.range = not_negative,
+       .used = spheres,
+       .meaning = "spheres whose gap is at most this share of the sum of their radii are bonded"});
     v("normal_stiffness", s.normal_stiffness,
       {.unit = "Pa/m",
        .range = positive,
-       .unset = "from `elasticity`, E and the distance h of the centres",
+       .unset = "grains: from `elasticity`, E and the distance h of the centres; spheres: from E, nu and the packing; "
+                "chains: E/h; fibre: 0",
        .meaning = "stiffness per area k_n"});
-    v("shear_ratio", s.shear_ratio, {.range = positive, .unset = "from `elasticity` and nu", .meaning = "k_s / k_n"});
+    v("shear_ratio", s.shear_ratio,
+      {.range = not_negative,
+       .used = {!of_fibre, "a bond that is no fibre's interface"},
+       .unset = "from `elasticity` or the packing, and nu",
+       .meaning = "k_s / k_n; grains: > 0"});
+    v("shear_stiffness", s.shear_stiffness,
+      {.unit = "Pa/m",
+       .range = positive,
+       .used = {of_fibre, s.law == "interface" ? "" : "law = \"interface\""},
+       .meaning = "interface of a fibre: K_0, its only stiffness unless normal_stiffness is given"});
+    v("yield_slip", s.yield_slip,
+      {.unit = "m",
+       .range = positive,
+       .used = fibre,
+       .unset = "elastic",
+       .meaning = "delta_0: slip at strength K_0 delta_0"});
+    v("failure_slip", s.failure_slip,
+      {.unit = "m",
+       .range = positive,
+       .used = fibre,
+       .unset = "it breaks at once",
+       .meaning = "delta_1: slip at which nothing is left; fracture energy K_0 delta_0 delta_1/2",
+       .source = "Dressler 2020 (82)"});
+    v("residual_shear", s.residual_shear,
+      {.unit = "Pa", .range = not_negative, .used = fibre, .meaning = "tau_r: friction of the broken interface"});
+    v("radial_pressure", s.radial_pressure,
+      {.unit = "Pa",
+       .range = not_negative,
+       .used = fibre,
+       .meaning = "p_0 of the matrix on the fibre; adds residual_friction times it to the friction"});
+    v("frame", s.frame,
+      {.words = "surface | branch",
+       .used = fibre,
+       .meaning =
+           "fibre of generator `taken`: slip in the surface of its cylinder, or square to the line of the centres "
+           "as in the source",
+       .source = "Dressler 2020, 4.4.5"});
+    v("reach", s.reach,
+      {.words = "level | all",
+       .used = fibre,
+       .meaning = "fibre of generator `taken`: bonds between spheres side by side, or between all that touch"});
     v("elasticity", s.elasticity,
       {.words = "homogeneous | plane | solid",
        .meaning = "rule of `auto`: homogeneous k_n = k_s = E/h (nu = 0, exact); plane: honeycomb in plane stress, nu < "
@@ -706,6 +764,16 @@ void describe(V& v, StopSpec& s)
     v("strain", s.strain,
       {.range = positive, .unset = "not looked at", .meaning = "at this nominal strain of a ready-made test"});
     v("time", s.time, {.unit = "s", .range = positive, .unset = "no limit", .meaning = "at this simulated time"});
+    v("slip", s.slip,
+      {.unit = "m",
+       .range = positive,
+       .unset = "not looked at",
+       .meaning = "test `pull_out`: at this slip of the fibre where it leaves the matrix; with it the run goes on when "
+                  "the interface is broken"});
+    v("damage", s.damage,
+      {.range = share_above_0,
+       .unset = "not looked at",
+       .meaning = "test `pull_out`: at this mean damage of the interface"});
     v("rest", s.rest,
       {.range = positive,
        .unset = "not looked at",
@@ -719,7 +787,14 @@ void describe(V& v, TestSpec& s)
     const auto is = [&](const char* kind) { return s.kind == kind; };
     const bool bends = is("three_point_bending") || is("four_point_bending") || is("notched_beam");
     const Condition brazilian{is("brazilian"), "kind = \"brazilian\""};
-    const Condition driven{!is("custom") && !is("drop"), "any kind but \"custom\" and \"drop\""};
+    const Condition pull_out{is("pull_out"), "kind = \"pull_out\""};
+    const bool at_speed = !pull_out.holds || s.control == "speed";
+    const Condition driven{!is("custom") && !is("drop") && at_speed,
+                           pull_out.holds ? "control = \"speed\"" : "any kind but \"custom\" and \"drop\""};
+    const Condition along_axis{driven.holds && !pull_out.holds,
+                               pull_out.holds ? "any kind but \"custom\", \"drop\" and \"pull_out\"" : driven.text};
+    const Condition equilibria{pull_out.holds && !at_speed, "kind = \"pull_out\", control not \"speed\""};
+    const Condition by_damage{pull_out.holds && s.control == "damage", "kind = \"pull_out\", control = \"damage\""};
     const Condition compression{is("uniaxial_compression"), "kind = \"uniaxial_compression\""};
     const Condition gripped{is("uniaxial_tension") || is("dcb") || (compression.holds && s.ends == "gripped"),
                             "kind = \"uniaxial_tension\" or \"dcb\", or ends = \"gripped\""};
@@ -732,18 +807,19 @@ void describe(V& v, TestSpec& s)
         drop{is("drop"), "kind = \"drop\""};
     v("kind", s.kind,
       {.words = "brazilian | uniaxial_compression | uniaxial_tension | three_point_bending | four_point_bending | "
-                "notched_beam | dcb | drop | custom",
+                "notched_beam | dcb | drop | pull_out | custom",
        .meaning =
            "brazilian: a disc pressed along its diameter; uniaxial: pressed or pulled at both ends; bending over "
            "rollers; notched_beam: bending of a beam with a notch at mid span; dcb: two arms pulled apart; drop: "
-           "grains fall on a floor; all these make their own walls; custom: `[[walls]]` and `[[stages]]`"});
+           "grains fall on a floor; pull_out: a fibre pulled out of a matrix; all these make their own walls; custom: "
+           "`[[walls]]` and `[[stages]]`"});
     v("platen_speed", s.platen_speed,
       {.unit = "m/s",
        .range = positive,
        .required = always,
        .used = driven,
        .meaning = "closing speed of the two platens, or of rollers and supports, together; opening speed of two grips "
-                  "or pins"});
+                  "or pins; pull_out: speed of the grip"});
     v("platen", s.platen, {.words = "flat | curved", .used = brazilian, .meaning = "shape of the loaded face"});
     v("platen_radius", s.platen_radius,
       {.unit = "m",
@@ -760,7 +836,7 @@ void describe(V& v, TestSpec& s)
        .source = "Hondros 1959"});
     v("direction", s.direction,
       {.words = "x | y | z",
-       .used = driven,
+       .used = along_axis,
        .meaning = "axis of loading; a beam lies along x, or along y if loaded along x (brazilian: x, y)"});
     v("ends", s.ends,
       {.words = "platens | gripped",
@@ -816,6 +892,44 @@ void describe(V& v, TestSpec& s)
        .used = drop,
        .unset = "no side walls",
        .meaning = "gap between the specimen and four side walls"});
+    v("fibre", s.fibre,
+      {.required = always,
+       .used = pull_out,
+       .meaning = "part that is pulled: a chain, from its last sphere, or spheres taken from a packing"});
+    v("matrix", s.matrix, {.required = always, .used = pull_out, .meaning = "part that holds it"});
+    v("support", s.support,
+      {.words = "uniform | held",
+       .used = pull_out,
+       .meaning =
+           "face of the matrix at the embedded end: held in the mean under a uniform stress, or each body held"});
+    v("control", s.control,
+      {.words = "damage | displacement | speed",
+       .used = pull_out,
+       .meaning =
+           "damage: equilibria of growing damage, the whole path with its snap-back; displacement: equilibria of "
+           "growing displacement of the grip; speed: time steps at platen_speed"});
+    v("damage_step", s.damage_step,
+      {.range = {1e-6, 1.0}, .used = by_damage, .meaning = "mean damage from one equilibrium to the next"});
+    v("displacement_step", s.displacement_step,
+      {.unit = "m",
+       .range = positive,
+       .used = {pull_out.holds && s.control == "displacement", "kind = \"pull_out\", control = \"displacement\""},
+       .unset = "a twentieth of the largest failure_slip",
+       .meaning = "of the grip from one equilibrium to the next"});
+    v("slide_step", s.slide_step,
+      {.unit = "m",
+       .range = positive,
+       .used = equilibria,
+       .unset = "a sixtieth of the embedded length",
+       .meaning = "of the fibre once its interface is broken"});
+    v("profiles_at", s.profiles_at,
+      {.range = share,
+       .used = pull_out,
+       .meaning = "mean damages at which the profile along the fibre goes to profiles.csv"});
+    v("relaxed", s.relaxed,
+      {.range = {1e-12, 1e-2},
+       .used = equilibria,
+       .meaning = "an equilibrium: mean residual of the bodies over the mean force of the bonds"});
     v("ramp", s.ramp,
       {.unit = "s",
        .range = not_negative,

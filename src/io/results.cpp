@@ -7,6 +7,7 @@
 #include "io/hdf5_results.h"
 #include "io/history_csv.h"
 #include "io/plots.h"
+#include "io/pull_out_files.h"
 #include "io/view_script.h"
 #ifdef GF_HAVE_VTK
 #include "io/paraview.h"
@@ -64,6 +65,7 @@ struct ResultFolder::Impl {
     RunFacts facts;
     std::optional<HistoryCsv> history;
     std::optional<Hdf5Results> table;
+    std::optional<PullOutFiles> pull_out;  // from its first row on
 #ifdef GF_HAVE_VTK
     std::optional<ParaviewSeries> paraview;
 #endif
@@ -117,6 +119,13 @@ void ResultFolder::write_snapshot(const Model& model, const State& state, const 
     impl_->table.value().append_snapshot(model, state, fields, cracks);
 }
 
+void ResultFolder::append_pull_out(const PullOutState& row, const FibreProfile& profile,
+                                   const std::vector<double>& profiles_at)
+{
+    if (!impl_->pull_out) impl_->pull_out.emplace(impl_->folder, profiles_at);
+    impl_->pull_out->append(row, profile);
+}
+
 void ResultFolder::write_checkpoint(const Model& model, const State& state)
 {
     write_next_checkpoint(impl_->folder / "checkpoint", model, state, impl_->facts.version);
@@ -135,6 +144,7 @@ void ResultFolder::finish(const std::string& summary_json, const Model& model, c
     write_file(impl_->folder / "summary.json", summary_json);
     if (!plots) return;
     try {
+        if (impl_->pull_out) write_pull_out_plots(impl_->folder);
         write_plots(impl_->folder, model, state, cracks, fragments, clusters);
     } catch (const std::exception& e) {
         throw PlotError(e.what());

@@ -18,6 +18,9 @@
 
 namespace grainfrac {
 
+struct FibreProfile;
+struct PullOutState;
+
 /// How much broke where.
 struct CrackSums {
     double intergranular_area = 0.0;  ///< of broken faces between grains, and of broken parallel bonds [m^2]
@@ -126,6 +129,8 @@ public:
     void append_history(const HistoryRow& row);
     /// paraview/*.vtu|vtp + *.pvd, and the snapshot group of results.h5. `contacts`: write the contact polygons too.
     void write_snapshot(const Model& model, const State& state, const SnapshotFields& fields, bool contacts);
+    /// A row of pull_out.csv, and a profile where one is due.
+    void append_pull_out(const PullOutState& row, const FibreProfile& profile, const std::vector<double>& profiles_at);
     /// checkpoint/step_N.h5: everything that State::... for_each_array walks, checksummed; keeps the newest two.
     void write_checkpoint(const Model& model, const State& state);
     /// summary.json (text made by the caller), fragments.csv, clusters.csv, plots/*, the tables of results.h5.

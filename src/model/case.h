@@ -151,7 +151,6 @@ struct BondSpec {
     std::optional<double> failure_slip;  ///< delta_1 [m]
     double residual_shear = 0.0;         ///< tau_r of the broken interface [Pa]
     double radial_pressure = 0.0;        ///< p_0 of the matrix on the fibre [Pa]
-    double pressure_drop = 0.0;          ///< k_p: fall of the pressure per stress of the fibre [-]
     std::string frame = "surface";       ///< surface: of the fibre's cylinder | branch: between the centres
     std::string reach = "level";         ///< lattice fibre: level: spheres side by side | all: all that touch
     std::string made_in;                 ///< stage of kind "bond" that makes them; "": there from the start
@@ -259,6 +258,7 @@ struct TestSpec {
     double damage_step = 0.01;                 ///< pull_out: mean damage of an event at most [-]
     std::optional<double> displacement_step;   ///< pull_out, displacement: of the grip between equilibria [m]
     std::vector<double> profiles_at{0.0, 0.1, 0.5, 0.8, 0.9};  ///< pull_out: mean damages whose profiles are kept [-]
+    std::optional<double> slide_step;                          ///< pull_out: of the grip once all is broken [m]
     double relaxed = 1e-6;       ///< pull_out: mean residual over mean force of bonds at rest [-]
     std::optional<double> ramp;  ///< [s]; auto: 10 L/c0
     StopSpec stop;

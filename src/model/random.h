@@ -9,7 +9,7 @@
 
 namespace grainfrac {
 
-enum class RandomPurpose : std::uint32_t { orientation = 1, strength = 2, test = 3 };
+enum class RandomPurpose : std::uint32_t { orientation = 1, strength = 2, test = 3, packing = 4 };
 
 /// Uniform in (0, 1), never 0 or 1. `draw` numbers several draws of one entity.
 double uniform_random(std::int64_t seed, RandomPurpose purpose, std::uint32_t entity_a, std::uint32_t entity_b = 0,

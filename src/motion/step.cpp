@@ -9,6 +9,7 @@
 #include "motion/energy.h"
 #include "motion/integrate.h"
 #include "motion/servo.h"
+#include "motion/spread_supports.h"
 
 namespace grainfrac {
 
@@ -39,7 +40,8 @@ void step(const Model& model, State& state, double dt, bool want_stress)
     contact_forces(model, state, dt);
     bond_forces(model, state, dt);  // interfaces and parallel bonds; marks what breaks
     gather_forces(model, state);    // onto the bodies, in a fixed order
-    kick(model, state, 0.5 * dt);   // velocities to the end of the step
+    spread_support_forces(model, state);
+    kick(model, state, 0.5 * dt);  // velocities to the end of the step
 }
 
 void start(const Model& model, State& state)
@@ -51,6 +53,7 @@ void start(const Model& model, State& state)
     contact_forces(model, state, 0.0);
     bond_forces(model, state, 0.0);
     gather_forces(model, state);
+    spread_support_forces(model, state);
     state.initial_energy = 0.0;
     state.initial_energy =
         -energy_ledger(model, state).residual();  // what overlaps and motion at the start hold or lost

@@ -311,6 +311,36 @@ TimeStepBound time_step_bound(const Model& model, const State& state)
     return bound_of(model, state, std::vector<char>(static_cast<std::size_t>(state.bodies.size()), 1));
 }
 
+std::vector<FictitiousMass> fictitious_masses(const Model& model, const State& state, double dt, double safety)
+{
+    const Bodies& b = state.bodies;
+    Stiffness s(std::vector<char>(static_cast<std::size_t>(b.size()), 1));
+    add_interfaces(state, s);
+    add_parallels(state, s);
+    add_sphere_bonds(model, state, s);
+    add_contacts(model, state, s);
+    std::vector<FictitiousMass> masses(s.K.size());
+    for (int i = 0; i < b.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (s.strongest[k] == 0.0) continue;
+        // each block by itself, then both together with their coupling
+        Matrix6 K = s.K[k];
+        const double t = s.K[k].topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+        const Vec3 I = b.inertia[i];
+        const double least = std::min({I.x, I.y, I.z});
+        const double r =
+            s.K[k].bottomRightCorner<3, 3>().selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff() / least;
+        Eigen::Matrix<double, 6, 1> half;
+        const double m = 1.0 / std::sqrt(t), j = r > 0.0 ? 1.0 / std::sqrt(r * least) : 0.0;
+        half << m, m, m, j, j, j;
+        K = half.asDiagonal() * K * half.asDiagonal();
+        const double both = Eigen::SelfAdjointEigenSolver<Matrix6>(K, Eigen::EigenvaluesOnly).eigenvalues()[5];
+        const double scale = 0.5 * dt * dt / (safety * safety) * both;
+        masses[k] = {scale * t, scale * r};
+    }
+    return masses;
+}
+
 TimeStepBound time_step_bound(const Model& model, const State& state, const std::vector<int>& bodies)
 {
     std::vector<char> wanted(static_cast<std::size_t>(state.bodies.size()), 0);

@@ -28,4 +28,12 @@ TimeStepBound time_step_bound(const Model& model, const State& state);
 /// The bound that some bodies set.
 TimeStepBound time_step_bound(const Model& model, const State& state, const std::vector<int>& bodies);
 
+/// Mass and factor on the inertia of each body with which a step of dt would be `safety` times as long as is stable:
+/// all bodies equally fast, for relaxation (Underwood 1983). 0 for bodies that nothing acts on or that are driven.
+struct FictitiousMass {
+    double mass = 0.0;     ///< [kg]
+    double inertia = 1.0;  ///< on the true principal moments [-]
+};
+std::vector<FictitiousMass> fictitious_masses(const Model& model, const State& state, double dt, double safety);
+
 }  // namespace grainfrac

@@ -226,6 +226,29 @@ TEST_CASE("generate writes a microstructure that generator = \"file\" reads back
           Approx(w.summary("brazilian.out")["test"]["peak_load_N"].get<double>()).epsilon(1e-9));
 }
 
+TEST_CASE("generate writes grains and spheres into two files, and spheres that come back the same")
+{
+    const Workplace w;
+    const std::string rock = "[materials.rock]\ndensity = 2000\nyoung_modulus = 1e9\npoisson_ratio = 0.1\n";
+    const std::string block =
+        "[[parts]]\nname = \"block\"\nmaterial = \"rock\"\nside = 0.3\nthickness = 1\nregion = { "
+        "shape = \"box\", size = [1, 1, 1], center = [0, 0, 5] }\n";
+    const std::string balls = "[[parts]]\nname = \"balls\"\nkind = \"spheres\"\nmaterial = \"rock\"\n";
+    const std::string packed =
+        "generator = \"random_dense\"\ndiameter = 0.2\nsolid_fraction = 0.5\nregion = { shape = "
+        "\"sphere\", diameter = 2 }\n";
+    const std::string test = "[test]\nkind = \"drop\"\ndrop_height = 1\nstop = { time = 1 }\n";
+    std::ofstream(w.folder / "both.toml") << rock + block + balls + packed + test;
+    const Outcome both = w.run("generate both.toml --out all");
+    REQUIRE(both.code == 0);
+    CHECK(both.out.find("grains -> all.json\n500 spheres -> all.csv\nballs: 500 spheres, solid fraction 0.5000\n") !=
+          std::string::npos);
+    CHECK(w.run("generate both.toml --out all").code == 2);
+    std::ofstream(w.folder / "again.toml") << rock + balls + "generator = \"file\"\nfile = \"all.csv\"\n" + test;
+    REQUIRE(w.run("generate again.toml").code == 0);
+    CHECK(text_of(w.folder / "again.spheres.csv") == text_of(w.folder / "all.csv"));
+}
+
 TEST_CASE("check reports without running")
 {
     const Workplace w;

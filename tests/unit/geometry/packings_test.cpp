@@ -158,16 +158,19 @@ TEST_CASE("close packings have no two spheres that overlap, in any region", "[pa
     }
 }
 
-TEST_CASE("points drawn into a region for a sphere that is to lie inside", "[packings]")
+TEST_CASE("the shift that brings a sphere into a region", "[packings]")
 {
     const SphereRegion box(box_at({1, 0, 0}, {2, 4, 6}));
-    CHECK(box.drawn_in({5, -3, 1}, 0.5) == Vec3{1.5, -1.5, 1});
+    CHECK(box.shift_inside({5, -3, 1}, 0.5) == Vec3{-3.5, 1.5, 0});
     CHECK(box.volume() == 48.0);
+    CHECK(box.surface() == 88.0);
     const SphereRegion can(cylinder(4.0, 6.0, "y"));
-    CHECK(norm(can.drawn_in({3, 9, 4}, 0.5) - Vec3{0.9, 2.5, 1.2}) < 1e-15);
-    CHECK(can.drawn_in({0.1, 2.6, 0.2}, 0.5) == Vec3{0.1, 2.5, 0.2});
+    CHECK(norm(can.shift_inside({3, 9, 4}, 0.5) - Vec3{-2.1, -6.5, -2.8}) < 1e-14);
+    CHECK(can.shift_inside({0.1, 2.75, 0.2}, 0.5) == Vec3{0, -0.25, 0});
+    CHECK(can.surface() == Approx(32.0 * std::numbers::pi));
     const SphereRegion round(ball(4.0));
-    CHECK(norm(round.drawn_in({0, 3, 4}, 1.0) - Vec3{0, 0.6, 0.8}) < 1e-15);
+    CHECK(norm(round.shift_inside({0, 3, 4}, 1.0) - Vec3{0, -2.4, -3.2}) < 1e-14);
+    CHECK(round.shift_inside({0.1, 0.2, 0.3}, 1.0) == Vec3{});
     CHECK(round.contains({0, 0, 2}));
     CHECK_FALSE(round.contains({0, 0, 2.0001}));
 }
@@ -181,7 +184,7 @@ TEST_CASE("a straight chain: equal pieces from end to end", "[packings]")
     REQUIRE(nodes.position.size() == 15);
     CHECK(nodes.piece == Approx(10.0 / 14).epsilon(1e-15));
     CHECK(nodes.position.front() == f.from);
-    CHECK(norm(nodes.position.back() - f.to) < 1e-14);
+    CHECK(nodes.position.back() == f.to);
     for (std::size_t i = 0; i < 15; ++i)
         CHECK(norm(nodes.position[i] - Vec3{1, 2, 3.0 + 10.0 * static_cast<double>(i) / 14}) < 1e-14);
 }
@@ -295,4 +298,68 @@ TEST_CASE("the matrix makes room for a fibre", "[packings]")
         CHECK(generate_spheres(c).front().group == 0);
         CHECK(count_by_group(generate_spheres(c))[0] == 19 + 3 * 18);
     }
+}
+
+TEST_CASE("points of the lattice in the section of a fibre", "[packings]")
+{
+    // Fibre of radius 1 m in the HCP matrix of the pull-out, c along it: 7 or 3 points a level at d = 1 m, 7 at 0.7 m,
+    // 19 or, without those on the surface, 13 at 0.5 m.
+    const auto levels = [](double d, double radius) {
+        Case c = fibre_case();
+        c.parts[0].diameter = d;
+        c.parts[1].generator = "taken";
+        c.parts[1].region = cylinder(2.0 * radius, 30.0);
+        std::map<int, int> count;  // by the number of the level
+        const double h = std::sqrt(2.0 / 3.0) * d;
+        const std::vector<SphereSpec> spheres = generate_spheres(c);
+        const double bottom = spheres[0].position.z;  // of the matrix: that level has spheres left
+        for (const SphereSpec& s : spheres) {
+            if (s.group == 1) ++count[static_cast<int>(std::lround((s.position.z - bottom) / h))];
+        }
+        return std::pair(count[0], count[1]);
+    };
+    CHECK(levels(1.0, 1.0) == std::pair(7, 3));
+    CHECK(levels(0.7, 1.0).first == 7);
+    CHECK(levels(0.5, 1.0).first == 19);
+    CHECK(levels(0.5, 0.999).first == 13);
+}
+
+TEST_CASE("a wavy fibre takes just the spheres that are near to it", "[packings]")
+{
+    Case c = fibre_case();
+    PartSpec &m = c.parts[0], &f = c.parts[1];
+    m.generator = "random_dense";
+    m.region = cylinder(8.0, 12.0);
+    m.size_ratio = 2.0;
+    m.solid_fraction = 0.5;
+    f.fibre.shape = "wavy";
+    f.fibre.from = {0, 0, -4};
+    f.fibre.to = {0, 0, 4};
+    f.fibre.amplitude = 0.6;
+    f.fibre.wavelength = 5.0;
+    const Vec3 shift{1.5, 0.5, 0};
+    f.copies = {shift};
+    const auto distance = [&](const Vec3& x) {  // from the sine itself, in steps of 0.4 mm
+        double least = 1e300;
+        for (int k = 0; k <= 20000; ++k) {
+            const double u = 8.0 * k / 20000;
+            const Vec3 p{0.6 * std::sin(2.0 * std::numbers::pi * u / 5.0), 0, u - 4.0};
+            least = std::min({least, norm2(x - p), norm2(x - p - shift)});
+        }
+        return std::sqrt(least);
+    };
+    std::vector<SphereSpec> with = generate_spheres(c);
+    std::erase_if(with, [](const SphereSpec& s) { return s.group == 1; });
+    c.parts.pop_back();
+    const std::vector<SphereSpec> without = generate_spheres(c);
+    std::size_t left = 0;
+    for (const SphereSpec& s : without) {
+        const double d = distance(s.position);
+        const bool stays = left < with.size() && with[left].position == s.position;
+        if (std::fabs(d - 1.0) > 1e-4)
+            CHECK(stays == (d > 1.0));  // chords of the sine are off by 1e-4 of its amplitude
+        left += stays ? 1 : 0;
+    }
+    CHECK(left == with.size());
+    CHECK(without.size() > with.size() + 40);
 }

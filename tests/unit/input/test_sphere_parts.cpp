@@ -102,6 +102,22 @@ const Wrong wrong_parts[] = {
      "generator = \"random_dense\"\ndiameter = \"0.5 m\"\nsolid_fraction = 0.7",
      "error: FILE:12: parts[0].solid_fraction = 0.7: must be <= 0.634, random close packing at size_ratio = 1; less "
      "beside walls\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"", "generator = \"file\"\nfile = \"no_such.csv\"",
+     "error: FILE:11: parts[0].file = \"no_such.csv\": cannot read \"FOLDER/no_such.csv\"\n"},
+    {"lattice_axis = \"x\"", "file = \"s.csv\"",
+     "error: FILE:12: parts[0].file = \"s.csv\": has no meaning here; it goes with generator = \"file\"\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"",
+     "generator = \"random_dense\"\ndiameter = \"0.5 m\"\nsolid_fraction = 0.63",
+     "error: FILE:12: parts[0].solid_fraction = 0.63: cannot be reached in this region: overlaps of 0.05 of the "
+     "diameter are left; about 0.57 is possible, less than far from walls\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"",
+     "generator = \"random_dense\"\ndiameter = \"0.5 m\"\nsize_ratio = 40",
+     "error: FILE:12: parts[0].size_ratio = 40: must be >= 1 and <= 10\n"},
+    {"generator = \"hcp\"\ndiameter = \"0.5 m\"\nlattice_axis = \"x\"",
+     "generator = \"random_dense\"\ndiameter = \"3 m\"\nsize_ratio = 3",
+     "error: FILE:11: parts[0].diameter = \"3 m\": no sphere fits: the largest are 4.5 m wide, the region is 4 m at "
+     "its "
+     "smallest\n"},
     // regions
     {"region = ", "#",
      "error: FILE:6: parts[0].region: missing; required with generator = \"hexagonal_prisms\", "
@@ -112,7 +128,7 @@ const Wrong wrong_parts[] = {
      "\"disc\"\n"},
     {"diameter = \"0.4 m\"", "diameter = \"0.4 m\"\nregion = { shape = \"sphere\", diameter = 1 }",
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 1 }: has no meaning here; it goes with "
-     "generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"\n"},
+     "any generator but \"chain\"\n"},
     {"height = \"6 m\"", "height = \"0.1 m\"",
      "error: FILE:11: parts[0].diameter = \"0.5 m\": no sphere fits: 0.5 m against 0.1 m, the smallest length of the "
      "region\n"},
@@ -132,7 +148,7 @@ const Wrong wrong_parts[] = {
      "\"chain\": a quantity > 0 m such as \"1 m\"\n"
      "error: FILE:15: parts[1].fibre: missing; required with generator = \"chain\": a table\n"
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 1, center = [9, 0, 0] }: has no meaning "
-     "here; it goes with generator = \"hcp\", \"fcc\", \"random_dense\" or \"taken\"\n"},
+     "here; it goes with any generator but \"chain\"\n"},
     {"generator = \"chain\"\ndiameter = \"0.4 m\"\ninside = \"matrix\"\n" + chain_line,
      "generator = \"taken\"\ninside = \"matrix\"\nregion = { shape = \"sphere\", diameter = 1, center = [9, 0, 0] }",
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 1, center = [9, 0, 0] }: no sphere of "
@@ -224,6 +240,21 @@ TEST_CASE("parts of spheres are read", "[input][packings]")
     CHECK(c.parts[1].fibre.radius == 0.3);
     CHECK_FALSE(c.parts[1].fibre.spacing);
     CHECK(c.parts[1].copies == std::vector<Vec3>{{0, 1, 0}});
+}
+
+TEST_CASE("the spheres of docs/input.md are made as they stand", "[input][packings]")
+{
+    const std::string docs = contents(std::string(GF_SOURCE_DIR) + "/docs/input.md");
+    const auto begin = docs.find("[[parts]]\nname           = \"matrix\"");
+    REQUIRE(begin != docs.npos);
+    const std::string materials = "density = 2000\nyoung_modulus = \"5 GPa\"\npoisson_ratio = 0.1\n",
+                      test = "[test]\nkind = \"drop\"\ndrop_height = 1\nstop = { time = 1 }\n";
+    const Case c = read_text("[materials.mortar]\n" + materials + "[materials.steel]\n" + materials + test +
+                             docs.substr(begin, docs.find("```", begin) - begin));
+    const std::vector<SphereSpec> spheres = generate_spheres(c);
+    CHECK(spheres.size() > 2000);
+    CHECK(spheres.back().position == Vec3{0, 0, 0.02});
+    CHECK(spheres.back().chain == 0);
 }
 
 TEST_CASE("resolved.toml of parts of spheres reads back as the same case", "[input][packings]")

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment/pull_out_path.h"
+
+#include "fracture/bond_forces.h"
+#include "fracture/softening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+/// A state is on the failure surface within this share.
+constexpr double on_surface = 1e-4;
+/// Scalings to get there: one without friction, a few with it.
+constexpr int most_scalings = 12;
+/// An interface with this share of it left, or less, has nothing left to soften.
+constexpr double all_broken = 1.0 - 1e-9;
+constexpr int bisections = 60;
+
+/// Overshoot of the event that does `wanted` more mean damage, or breaks what is left.
+double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double wanted)
+{
+    double low = 0.0, high = 1.0;
+    while (mean_damage_at(model, state, interfaces, 1.0 + high) < wanted && high < 1e6) high *= 2.0;
+    for (int k = 0; k < bisections; ++k) {
+        const double middle = 0.5 * (low + high);
+        (mean_damage_at(model, state, interfaces, 1.0 + middle) < wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+PullOutPath::PullOutPath(const PullOut& pull_out, const PathSettings& settings, const Model& model, const State& state)
+    : pull_out_(pull_out), settings_(settings), relaxation_(model, state)
+{
+    settings_.relax.fracture = !settings.by_damage;
+}
+
+/// All displacements and turns since the start by a factor; grips too.
+void PullOutPath::scale(Model&, State& state, double factor)
+{
+    Bodies& b = state.bodies;
+    auto& position = b.position.host();
+    auto& orientation = b.orientation.host();
+    for (int i = 0; i < b.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        position[k] = b.start_position[i] + factor * (position[k] - b.start_position[i]);
+        const Vec3 turn = factor * rotation_vector(orientation[k] * conjugate(b.start_orientation[i]));
+        const double angle = norm(turn);
+        orientation[k] = angle > 0.0 ? normalized(from_axis_angle(turn / angle, angle) * b.start_orientation[i])
+                                     : b.start_orientation[i];
+    }
+}
+
+void PullOutPath::shift_fibre(const Model&, State& state, double by)
+{
+    Bodies& b = state.bodies;
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
+    }
+}
+
+/// Mean of the forces before and after times the way: exact while the response between is linear.
+void PullOutPath::book_work(State& state)
+{
+    Bodies& b = state.bodies;
+    const auto n = static_cast<std::size_t>(b.size());
+    const bool first = force_before_.size() != n;
+    force_before_.resize(n);
+    position_before_.resize(n);
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.wall[i] != pull_out_.grip_wall) continue;
+        const auto k = static_cast<std::size_t>(i);
+        const Vec3 before = first ? b.start_position[i] : position_before_[k];
+        b.external_work.at(i) -= 0.5 * dot(force_before_[k] + b.force[i], b.position[i] - before);
+        force_before_[k] = b.force[i];
+        position_before_[k] = b.position[i];
+    }
+}
+
+bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>& interrupted)
+{
+    last_ = relaxation_.relax(model, state, settings_.relax, interrupted);
+    book_work(state);
+    return last_.at_rest;
+}
+
+bool PullOutPath::to_softening(Model& model, State& state, const std::function<bool()>& interrupted)
+{
+    const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
+    for (int k = 0; k < most_scalings; ++k) {
+        const double factor = factor_to_softening(model, state, interfaces);
+        if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface) return true;
+        scale(model, state, factor);
+        if (!relax(model, state, interrupted)) return false;
+    }
+    return true;
+}
+
+PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::function<bool()>& interrupted)
+{
+    const auto rested = [&](bool ok) {
+        if (!ok) return Found::not_at_rest;
+        state.time += 1.0;
+        return Found::equilibrium;
+    };
+    const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
+    if (mean_damage(state, interfaces) >= all_broken) {
+        if (!settings_.slides) return Found::end;
+        settings_.relax.fracture = true;
+        shift_fibre(model, state, settings_.slide);
+        return rested(relax(model, state, interrupted));
+    }
+    if (!settings_.by_damage) {
+        const double now = pull_out_state(pull_out_, state).end_displacement;
+        if (started_ && now > 0.0)
+            scale(model, state, 1.0 + settings_.shift / now);
+        else
+            shift_fibre(model, state, settings_.shift);
+        started_ = true;
+        return rested(relax(model, state, interrupted));
+    }
+    if (!started_) {
+        shift_fibre(model, state, settings_.shift);
+        started_ = true;
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
+        return rested(to_softening(model, state, interrupted));
+    }
+    // half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes
+    const double wanted = std::min(1.0, mean_damage(state, interfaces) + settings_.damage_step);
+    const double reach = 1.0 + overshoot(model, state, interfaces, wanted), half = std::sqrt(reach);
+    scale(model, state, half);
+    if (!relax(model, state, interrupted)) return Found::not_at_rest;
+    soften(model, state, interfaces, reach / half);
+    if (!relax(model, state, interrupted)) return Found::not_at_rest;
+    return rested(to_softening(model, state, interrupted));
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The quasi-static path of a pull-out as a row of equilibria, snap-back included.
+//
+// Damage control: between two events damage is frozen, and the model linear but for friction. At rest, the state is
+// scaled until the first point of the interface reaches its strength (a point of the path); then a chosen amount of
+// damage is done at once, as if the state were a little further, and the model comes to rest again. Whether the grip
+// goes on or back in between is not prescribed, so that the path turns where it must (physics/bonded_spheres 13).
+// Displacement control: the grip goes on by steps and everything softens while it comes to rest; where the path turns
+// back, the stress falls.
+#pragma once
+
+#include "experiment/pull_out.h"
+#include "motion/relax.h"
+
+#include <functional>
+
+namespace grainfrac {
+
+struct PathSettings {
+    bool by_damage = true;      ///< else by displacement
+    double damage_step = 0.01;  ///< mean damage of an event [-]
+    double shift = 0.0;         ///< of the grip: of the first event, and of the steps of displacement control [m]
+    double slide = 0.0;         ///< of the grip once nothing is left to soften [m]
+    bool slides = false;        ///< go on when all is broken: friction is left
+    RelaxSettings relax;
+};
+
+class PullOutPath {
+public:
+    PullOutPath(const PullOut& pull_out, const PathSettings& settings, const Model& model, const State& state);
+
+    enum class Found { equilibrium, end, not_at_rest };
+    /// The next state of the path. State::time goes on by one: it counts equilibria.
+    Found next(Model& model, State& state, const std::function<bool()>& interrupted);
+    const Relaxed& last() const { return last_; }
+
+private:
+    bool relax(Model& model, State& state, const std::function<bool()>& interrupted);
+    bool to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
+    void scale(Model& model, State& state, double factor);
+    void shift_fibre(const Model& model, State& state, double by);
+    void book_work(State& state);
+
+    const PullOut& pull_out_;
+    PathSettings settings_;
+    Relaxation relaxation_;
+    Relaxed last_;
+    std::vector<Vec3> force_before_, position_before_;  // of the grip, for the work of its next move
+    bool started_ = false, broken_ = false;
+};
+
+}  // namespace grainfrac

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fracture/softening.h"
+
+#include "fracture/interface_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfrac {
+
+namespace {
+
+/// Calls visit(point index, jump, state of the point) for the points of an interface that have not yet broken.
+template <class Visit>
+void for_each_live_point(const State& state, int i, Visit&& visit)
+{
+    const InterfaceBonds& f = state.interfaces;
+    const InterfacePoints& p = state.points;
+    const Bodies& b = state.bodies;
+    if (f.retired[i] != 0) return;
+    const InterfaceFrame frame(b.orientation[f.a[i]], b.orientation[f.b[i]], b.position[f.b[i]] - b.position[f.a[i]],
+                               f.normal_a[i], f.normal_b[i], f.tangent_a[i], f.tangent_b[i]);
+    for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
+        if (p.damage[q] >= 1.0) continue;
+        const Vec3 jump = frame.between + frame.rotation_b * p.position_b[q] - frame.rotation_a * p.position_a[q];
+        visit(q, frame.in_frame(jump),
+              InterfacePointState{p.damage[q], p.onset[q], p.failure[q], p.slip[q].x, p.slip[q].y});
+    }
+}
+
+InterfaceResponse softened(const Model& model, const InterfaceBonds& f, int i, const InterfaceJump& jump,
+                           InterfacePointState& p)
+{
+    return model.interface_laws[f.law[i]](jump, jump, f.normal_stiffness[i], f.shear_stiffness[i], f.strength_factor[i],
+                                          f.toughness_factor[i], true, false, p, true, f.pressure[i]);
+}
+
+InterfaceJump scaled(const InterfaceJump& d, double s)
+{
+    return {s * d.n, s * d.s1, s * d.s2};
+}
+
+}  // namespace
+
+double factor_to_softening(const Model& model, const State& state, const std::vector<int>& interfaces)
+{
+    const InterfaceBonds& f = state.interfaces;
+    double nearest = 0.0;  // largest use of the strength
+    for (const int i : interfaces) {
+        const InterfaceLaw law = model.interface_laws[f.law[i]];
+        if (law.failure != FailureUnit::point) continue;
+        const double k_n = f.normal_stiffness[i], k_s = f.shear_stiffness[i];
+        for_each_live_point(state, i, [&](int, const InterfaceJump& d, const InterfacePointState& p) {
+            const double slid2 = d.s1 * d.s1 + d.s2 * d.s2, open = std::fmax(d.n, 0.0);
+            const double used = p.onset > 0.0
+                                    ? std::sqrt(k_n * open * open + k_s * slid2) / law.softening_threshold(p)
+                                    : law.onset_factor(k_n * d.n, k_s * std::sqrt(slid2), f.strength_factor[i]);
+            nearest = std::max(nearest, used);
+        });
+    }
+    return nearest > 0.0 ? 1.0 / nearest : 0.0;
+}
+
+double mean_damage(const State& state, const std::vector<int>& interfaces)
+{
+    double damaged = 0.0, area = 0.0;
+    for (const int i : interfaces) {
+        damaged += state.interfaces.area[i] * state.interfaces.damage[i];
+        area += state.interfaces.area[i];
+    }
+    return area > 0.0 ? damaged / area : 0.0;
+}
+
+double mean_damage_at(const Model& model, const State& state, const std::vector<int>& interfaces, double reach)
+{
+    double damaged = 0.0, area = 0.0;
+    for (const int i : interfaces) {
+        double whole = 0.0;
+        for_each_live_point(state, i, [&](int q, const InterfaceJump& d, InterfacePointState p) {
+            softened(model, state.interfaces, i, scaled(d, reach), p);
+            whole += state.points.weight[q] * (1.0 - p.damage);
+        });
+        damaged += state.interfaces.area[i] - whole;
+        area += state.interfaces.area[i];
+    }
+    return area > 0.0 ? damaged / area : 0.0;
+}
+
+void soften(const Model& model, State& state, const std::vector<int>& interfaces, double reach)
+{
+    InterfaceBonds& f = state.interfaces;
+    for (const int i : interfaces) {
+        const double k_n = f.normal_stiffness[i], k_s = f.shear_stiffness[i];
+        double work = 0.0, released = 0.0, sheared = 0.0;
+        bool started = false;
+        for_each_live_point(state, i, [&](int q, const InterfaceJump& d, InterfacePointState p) {
+            const double before = p.damage;
+            const bool was_whole = p.onset == 0.0;
+            const InterfaceResponse r = softened(model, f, i, scaled(d, reach), p);
+            if (p.damage == before && p.onset == 0.0) return;
+            if (was_whole) {  // friction begins where the point is, not where the reach is
+                p.slip1 = d.s1;
+                p.slip2 = d.s2;
+                started = true;
+            }
+            const double w = state.points.weight[q], open = std::fmax(d.n, 0.0);
+            const double s1 = d.s1 - p.slip1, s2 = d.s2 - p.slip2;
+            work += w * r.fracture_work;
+            sheared += w * r.shear_share;
+            released += 0.5 * w * (p.damage - before) *
+                        (k_n * open * open + k_s * (d.s1 * d.s1 + d.s2 * d.s2 - s1 * s1 - s2 * s2));
+            state.points.damage.at(q) = p.damage;
+            state.points.onset.at(q) = p.onset;
+            state.points.failure.at(q) = p.failure;
+            state.points.slip.at(q) = {p.slip1, p.slip2};
+        });
+        f.fracture_work.at(i) += work;
+        f.inserted_work.at(i) += work - released;
+        f.shear_share.at(i) += sheared;
+        if (started && f.first_damage_time[i] < 0.0) f.first_damage_time.at(i) = state.time;
+    }
+}
+
+}  // namespace grainfrac

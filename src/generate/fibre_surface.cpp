@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generate/fibre_surface.h"
+
+#include "geometry/gjk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace grainfrac {
+
+namespace {
+
+/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one: with more, the fibre
+/// would be tied to spheres that lie behind others.
+constexpr double ring_width = 0.35;
+/// The same for grains, over their distance from the axis: faces of one hole are rarely at one distance.
+constexpr double face_ring_width = 0.25;
+/// Centres whose line is tilted less than this against the plane across the fibre are side by side.
+constexpr double side_by_side = 1e-6;
+
+/// A body beside a node.
+struct Neighbour {
+    int body = -1;
+    Vec3 place;             // of the patch [m]
+    Vec3 outward;           // unit, from the axis
+    double distance = 0.0;  // from the axis [m]
+    double angle = 0.0;     // about it [rad]
+    double share = 0.0;     // of the circle [rad]
+    double width = 0.0;     // of the ring that it may count to [m]
+};
+
+Vec3 tangent_at(const State& state, const std::vector<int>& nodes, std::size_t k)
+{
+    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
+    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
+}
+
+/// Rectangle about `center`, its normal from a to b.
+std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& along, double length, double width)
+{
+    const Vec3 u = 0.5 * length * along, v = 0.5 * width * cross(normal, along);
+    return {center - u - v, center + u - v, center + u + v, center - u + v};
+}
+
+SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
+                 double width)
+{
+    SharedFace f;
+    f.a = std::min(fibre, matrix);
+    f.b = std::max(fibre, matrix);
+    f.normal = f.a == fibre ? outward : -outward;
+    const Vec3 square = normalized(tangential(along, f.normal));
+    f.polygon = rectangle(center, f.normal, square, length, width);
+    return f;
+}
+
+class Ring {
+public:
+    Ring(const Model& model, const State& state, const FibreChain& chain)
+        : model_(model), state_(state), chain_(chain), around_(chain.nodes.size())
+    {
+    }
+
+    void add_sphere(int body)
+    {
+        const Vec3 x = state_.bodies.position[body];
+        std::size_t nearest = 0;
+        double least = 1e300;
+        for (std::size_t k = 0; k < chain_.nodes.size(); ++k) {
+            const double d = norm2(x - state_.bodies.position[chain_.nodes[k]]);
+            if (d < least * (1.0 - 1e-12)) {
+                least = d;
+                nearest = k;
+            }
+        }
+        add(nearest, body, x, ring_width * 2.0 * model_.shapes.radius[state_.bodies.shape[body]], true);
+    }
+
+    void add_grain(int body)
+    {
+        const ShapesView shapes = view(model_.shapes, Device::cpu);
+        const std::int32_t s = state_.bodies.shape[body];
+        const PlacedCore core{shapes.vertices.data + shapes.vertex_begin[s],
+                              shapes.vertex_begin[s + 1] - shapes.vertex_begin[s], state_.bodies.position[body],
+                              state_.bodies.orientation[body]};
+        const Vec3 origin{};
+        for (std::size_t k = 0; k < chain_.nodes.size(); ++k) {
+            const Vec3 node = state_.bodies.position[chain_.nodes[k]];
+            if (norm(state_.bodies.position[body] - node) > shapes.bounding_radius[s] + 4.0 * chain_.radius) continue;
+            const PlacedCore point{&origin, 1, node, Quat{}};
+            const ClosestPoints near = closest_points(point, core, state_.bodies.position[body] - node);
+            if (near.distance <= 0.0) continue;
+            const Vec3 surface = near.b - (shapes.radius[s] / near.distance) * (near.b - near.a);
+            add(k, body, surface, face_ring_width * near.distance, false);
+        }
+    }
+
+    std::vector<SharedFace> patches()
+    {
+        std::vector<SharedFace> faces;
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            std::vector<Neighbour>& ring = around_[k];
+            if (ring.empty()) continue;
+            double least = 1e300;
+            for (const Neighbour& n : ring) least = std::min(least, n.distance);
+            std::erase_if(ring, [&](const Neighbour& n) { return n.distance > least + n.width; });
+            share_circle(ring);
+            for (const Neighbour& n : ring) {
+                faces.push_back(patch(chain_.nodes[k], n.body, n.place, n.outward, tangent_at(state_, chain_.nodes, k),
+                                      chain_.piece, n.share * chain_.radius));
+            }
+        }
+        return faces;
+    }
+
+private:
+    void add(std::size_t k, int body, const Vec3& place, double width, bool is_sphere)
+    {
+        const Vec3 t = tangent_at(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
+        if (std::fabs(dot(from, t)) > 0.5 * chain_.piece * (1.0 + 1e-9)) return;
+        const Vec3 across = tangential(from, t);
+        const double r = norm(across);
+        const double farthest = chain_.radius + (is_sphere ? width / ring_width : chain_.radius);
+        if (r == 0.0 || r > farthest) return;
+        const Vec3 e1 = any_perpendicular(t), e2 = cross(t, e1);
+        around_[k].push_back(
+            {body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0, width});
+    }
+
+    /// Half the way to the next on either side.
+    static void share_circle(std::vector<Neighbour>& ring)
+    {
+        constexpr double turn = 2.0 * std::numbers::pi;
+        std::sort(ring.begin(), ring.end(), [](const Neighbour& x, const Neighbour& y) { return x.angle < y.angle; });
+        const std::size_t n = ring.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            double gap = ring[(i + 1) % n].angle - ring[(i + n - 1) % n].angle;
+            if (gap <= 0.0) gap += turn;
+            ring[i].share = n < 3 ? turn / static_cast<double>(n) : 0.5 * gap;
+        }
+    }
+
+    const Model& model_;
+    const State& state_;
+    const FibreChain& chain_;
+    std::vector<std::vector<Neighbour>> around_;  // of each node
+};
+
+}  // namespace
+
+std::vector<SharedFace> chain_patches(const Model& model, const State& state, const FibreChain& chain,
+                                      const std::vector<char>& is_matrix)
+{
+    Ring ring(model, state, chain);
+    for (int i = 0; i < state.bodies.size(); ++i) {
+        if (is_matrix[static_cast<std::size_t>(i)] == 0) continue;
+        if (is_sphere(model, state.bodies, i))
+            ring.add_sphere(i);
+        else
+            ring.add_grain(i);
+    }
+    return ring.patches();
+}
+
+std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& fibre,
+                                        const std::vector<std::pair<int, int>>& pairs)
+{
+    std::vector<SharedFace> faces;
+    const auto from_axis = [&](int i) { return tangential(state.bodies.position[i] - fibre.center, fibre.axis); };
+    for (const auto& [inner, outer] : pairs) {
+        const Vec3 x = state.bodies.position[inner], y = state.bodies.position[outer], branch = normalized(y - x);
+        if (fibre.same_level && std::fabs(dot(branch, fibre.axis)) > side_by_side) continue;
+        const Vec3 middle = 0.5 * (x + y);
+        const Vec3 radial = normalized(from_axis(inner) + from_axis(outer));
+        faces.push_back(patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
+    }
+    const double area = 2.0 * std::numbers::pi * fibre.radius * fibre.length / static_cast<double>(faces.size());
+    for (SharedFace& f : faces) {
+        const Vec3 c = 0.25 * (f.polygon[0] + f.polygon[1] + f.polygon[2] + f.polygon[3]);
+        for (Vec3& x : f.polygon) x = c + std::sqrt(area) * (x - c);
+    }
+    return faces;
+}
+
+}  // namespace grainfrac

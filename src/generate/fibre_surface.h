@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface of a fibre as patches, each between a node or sphere of the fibre and a body of the matrix. Their normals
+// are radial and their areas add up to that of the cylinder, all along it: a bond along the line of two centres would
+// carry but a part of the axial slip (physics/bonded_spheres 8.1).
+#pragma once
+
+#include "geometry/shared_faces.h"
+#include "model/model.h"
+#include "model/state.h"
+
+#include <vector>
+
+namespace grainfrac {
+
+/// A chain of nodes in the matrix.
+struct FibreChain {
+    std::vector<int> nodes;  ///< bodies, from the embedded end to the loaded one
+    double radius = 0.0;     ///< a [m]
+    double piece = 0.0;      ///< length of fibre that a node stands for [m]
+};
+
+/// One patch for each body of the matrix that a node sees beside it: the nearest spheres around it, with the patch at
+/// their centres, and the nearest grains, with the patch where they are nearest. A patch is as wide as its share of the
+/// circle and as long as the node's piece.
+std::vector<SharedFace> chain_patches(const Model& model, const State& state, const FibreChain& chain,
+                                      const std::vector<char>& is_matrix);
+
+/// A fibre made of the spheres of a lattice: a patch, all of one area, for each pair of bonded neighbours across the
+/// surface of the cylinder; midway between them.
+struct FibreLattice {
+    Vec3 axis;               ///< unit [-]
+    Vec3 center;             ///< a point of the axis [m]
+    double radius = 0.0;     ///< a [m]
+    double length = 0.0;     ///< [m]
+    bool radial = true;      ///< normals: radial, else along the line of the centres
+    bool same_level = true;  ///< only pairs whose line is square to the axis
+};
+std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& fibre,
+                                        const std::vector<std::pair<int, int>>& pairs);
+
+}  // namespace grainfrac

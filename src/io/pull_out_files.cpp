@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/pull_out_files.h"
+
+#include "io/csv_row.h"
+#include "io/history_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+namespace grainfrac {
+
+namespace {
+
+constexpr const char* rows_name = "pull_out.csv";
+constexpr const char* profiles_name = "profiles.csv";
+/// A profile is due within this of its mean damage [-].
+constexpr double damage_round_off = 1e-9;
+
+void put(std::ofstream& file, const std::filesystem::path& path, const std::string& text)
+{
+    errno = 0;
+    if (!(file << text << std::flush))
+        throw std::runtime_error(path.string() + ": cannot write: " + std::strerror(errno != 0 ? errno : EIO));
+}
+
+/// Stress growth, debonding, friction (physics: phases of a pull-out).
+int phase_of(const PullOutState& s)
+{
+    return s.mean_damage <= 0.0 ? 0 : (s.mean_damage < 1.0 - damage_round_off ? 1 : 2);
+}
+
+}  // namespace
+
+PullOutFiles::PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at)
+    : folder_(folder),
+      rows_(folder / rows_name, std::ios::binary | std::ios::trunc),
+      profiles_(folder / profiles_name, std::ios::binary | std::ios::trunc),
+      due_(std::move(profiles_at))
+{
+    std::sort(due_.begin(), due_.end());
+    put(rows_, folder / rows_name,
+        "# phase: 0 stress growth, 1 debonding, 2 friction. Slip of the exit and of the embedded end: of the fibre "
+        "against the matrix, along the pull.\n"
+        "end_slip_m,end_stress_Pa,end_displacement_m,embedded_slip_m,mean_damage,phase\n");
+    put(profiles_, folder / profiles_name,
+        "# means of the levels of the fibre; z from the embedded end\nmean_damage,z_m,slip_m,tau_Pa,sigma_f_Pa,"
+        "damage\n");
+}
+
+void PullOutFiles::append(const PullOutState& s, const FibreProfile& p)
+{
+    std::string line;
+    for (const double x : {s.exit_slip, s.end_stress, s.end_displacement, s.embedded_slip, s.mean_damage})
+        append_cell(line, x);
+    append_cell(line, phase_of(s));
+    put(rows_, folder_ / rows_name, line + '\n');
+    if (s.end_stress == 0.0 || next_ >= due_.size() || s.mean_damage < due_[next_] - damage_round_off) return;
+    while (next_ < due_.size() && s.mean_damage >= due_[next_] - damage_round_off) ++next_;
+    std::string rows;
+    for (std::size_t k = 0; k < p.position.size(); ++k) {
+        std::string row;
+        for (const double x : {s.mean_damage, p.position[k], p.slip[k], p.shear[k], p.stress[k], p.damage[k]})
+            append_cell(row, x);
+        rows += row + '\n';
+    }
+    put(profiles_, folder_ / profiles_name, rows);
+}
+
+void write_pull_out_plots(const std::filesystem::path& folder)
+{
+    const HistoryTable rows = read_history_csv(folder / rows_name), profiles = read_history_csv(folder / profiles_name);
+    const auto scaled = [](std::vector<double> x, double by) {
+        for (double& v : x) v *= by;
+        return x;
+    };
+    const std::vector<double> stress = scaled(rows.column("end_stress_Pa"), 1e-6);
+    if (stress.size() < 2) return;
+    plot_curves(folder / "plots" / "pull_out", "Fibre pull-out", "slip at the exit, displacement of the end [mm]",
+                "stress at the end [MPa]",
+                {{"slip at the exit", scaled(rows.column("end_slip_m"), 1e3), stress},
+                 {"displacement of the end", scaled(rows.column("end_displacement_m"), 1e3), stress}});
+    std::map<double, std::pair<Curve, Curve>> of_damage;
+    const std::vector<double>& D = profiles.column("mean_damage");
+    for (std::size_t i = 0; i < profiles.rows(); ++i) {
+        auto& [shear, tension] = of_damage[D[i]];
+        shear.label = tension.label = fmt::format("mean damage {:.2g}", D[i]);
+        shear.x.push_back(profiles.column("z_m")[i]);
+        shear.y.push_back(1e-6 * profiles.column("tau_Pa")[i]);
+        tension.x.push_back(profiles.column("z_m")[i]);
+        tension.y.push_back(1e-6 * profiles.column("sigma_f_Pa")[i]);
+    }
+    std::vector<Curve> shears, tensions;
+    for (auto& [damage, both] : of_damage) {
+        if (both.first.x.size() < 2) continue;
+        shears.push_back(std::move(both.first));
+        tensions.push_back(std::move(both.second));
+    }
+    if (shears.empty()) return;
+    plot_curves(folder / "plots" / "fibre_shear", "Shear of the interface", "from the embedded end [m]", "shear [MPa]",
+                shears);
+    plot_curves(folder / "plots" / "fibre_stress", "Stress of the fibre", "from the embedded end [m]", "stress [MPa]",
+                tensions);
+}
+
+}  // namespace grainfrac

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pull_out.csv, a row for each state of a pull-out; profiles.csv, what the interface does along the fibre; their plots.
+#pragma once
+
+#include "experiment/pull_out.h"
+#include "io/results.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace grainfrac {
+
+class PullOutFiles {
+public:
+    /// `profiles_at`: mean damages whose profiles are kept, each where it is first reached.
+    PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at);
+    /// Each row is on disk when it returns; errors throw std::runtime_error that names the file.
+    void append(const PullOutState& row, const FibreProfile& profile);
+
+private:
+    std::filesystem::path folder_;
+    std::ofstream rows_, profiles_;
+    std::vector<double> due_;  // rising
+    std::size_t next_ = 0;
+};
+
+/// plots/pull_out: stress at the fibre's end against slip and displacement; plots/fibre_shear and plots/fibre_stress:
+/// the profiles. From the two files in `folder`.
+void write_pull_out_plots(const std::filesystem::path& folder);
+
+}  // namespace grainfrac

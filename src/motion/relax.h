@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Equilibrium by dynamic relaxation: the steps of the core with fictitious masses, all bodies equally fast, and a drag
+// of twice the lowest frequency that is still excited (Underwood 1983): that of the Rayleigh quotient
+// -v.dF/(dt v.M v) of the present motion. Nothing breaks or softens meanwhile unless the model says so; friction
+// slides.
+#pragma once
+
+#include "model/model.h"
+#include "model/state.h"
+#include "motion/time_step.h"
+
+#include <functional>
+
+namespace grainfrac {
+
+struct RelaxSettings {
+    double tolerance = 1e-6;  ///< mean residual of the free bodies over the mean force of the interactions [-]
+    int most_steps = 200000;
+    bool fracture = false;  ///< bonds may break or soften on the way
+};
+
+struct Relaxed {
+    int steps = 0;
+    double residual = 0.0;  ///< [-]
+    bool at_rest = false;   ///< else most_steps passed, or it was interrupted
+};
+
+/// Fictitious masses are made once and serve as long as the bonds only get softer; masses of the state are its own
+/// again when relax() returns.
+class Relaxation {
+public:
+    Relaxation(const Model& model, const State& state);
+    /// Driven bodies stay where they are. Time does not advance, the step count does. `interrupted` is asked now and
+    /// then.
+    Relaxed relax(Model& model, State& state, const RelaxSettings& settings,
+                  const std::function<bool()>& interrupted = {});
+
+private:
+    std::vector<FictitiousMass> masses_;
+};
+
+}  // namespace grainfrac
