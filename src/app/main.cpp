@@ -106,8 +106,16 @@ int main(int argc, char** argv)
     add_case_options(*check, o);
     check->footer("Example: grainfrac check disc.toml");
 
+    auto* calibrate =
+        app.add_subcommand("calibrate", "find the bond parameters that give a wanted elasticity and strength");
+    add_case_options(*calibrate, o);
+    calibrate->add_option("--out", o.out, "result folder (default: <stem>.calibration in the working directory)");
+    calibrate->add_flag("--force", o.force, "replace an existing result folder");
+    calibrate->add_flag("--no-report", o.no_report, "no plot at the end");
+    calibrate->footer("Example: grainfrac calibrate examples/calibrate/hcp.toml");
+
     auto* info = app.add_subcommand("info", "version, build options and devices; or what a result folder holds");
-    for (const char* later : {"resume", "report", "calibrate"}) {
+    for (const char* later : {"resume", "report"}) {
         auto* command = app.add_subcommand(later, "not available in this version")->group("")->prefix_command();
         command->callback([later] { throw CLI::ValidationError(later, "is not available in this version"); });
     }
@@ -125,6 +133,7 @@ int main(int argc, char** argv)
         if (*run) return run_command(o);
         if (*generate) return generate_command(o);
         if (*check) return check_command(o);
+        if (*calibrate) return calibrate_command(o);
         return info_command(folder);
     });
 }

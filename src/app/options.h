@@ -30,6 +30,7 @@ inline constexpr int terminated = 143;   ///< SIGTERM, after a checkpoint
 int run_command(const Options& options);
 int generate_command(const Options& options);
 int check_command(const Options& options);
+int calibrate_command(const Options& options);
 int info_command(const std::string& folder);
 
 }  // namespace grainfrac

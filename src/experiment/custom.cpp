@@ -131,6 +131,9 @@ int opposite_wall(const Stage& s)
 
 Experiment set_up_custom(const Case& c, Model& model, State& state)
 {
+    if (c.stages.empty())
+        throw InputError("stages",
+                         "missing; a run needs [test] or [[stages]]; this input is for `grainfrac calibrate`");
     Experiment e;
     e.kind = "custom";
     const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];

@@ -20,6 +20,8 @@ Form form_of(Packing packing)
             return {5.0, 6.0 * std::numbers::sqrt2, 1.0, 1.0};
         case Packing::fcc:
             return {3.0, 2.0 * std::numbers::sqrt2, 1.0, 3.0};
+        case Packing::honeycomb:
+            return {3.0, 2.0, 1.0, 1.0};
         case Packing::random:
             break;
     }

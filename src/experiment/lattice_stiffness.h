@@ -4,15 +4,18 @@
 //   nu = (1 - lambda)/(p + lambda),   lambda = K_s/K_n = (1 - p nu)/(1 + nu),   -1 < nu <= 1/p
 //
 // with p = 5 for hexagonal close packing loaded along c (and face-centred cubic along [111]), p = 3 for face-centred
-// cubic along [100], p = 4 for an isotropic random packing. Moments between spheres do not enter. The lattices are
-// exact where nothing but their inside counts; the random form is the mean of a uniform strain, so an upper bound.
+// cubic along [100] and for hexagonal prisms in their plane, p = 4 for an isotropic random packing. Moments between
+// spheres do not enter. The lattices are exact where nothing but their inside counts; the random form is the mean of a
+// uniform strain, so an upper bound.
 #pragma once
 
 #include <optional>
 
 namespace grainfrac {
 
-enum class Packing { hcp, fcc, random };
+/// honeycomb: hexagonal prisms pulled in their plane, with interfaces (Kawai 1978); K_n is then per area, and the
+/// density the distance of the centres.
+enum class Packing { hcp, fcc, random, honeycomb };
 
 /// Springs of all bonds of a packing.
 struct LatticeStiffness {

@@ -3,6 +3,8 @@
 
 #include "fracture/bond_forces.h"
 #include "fracture/softening.h"
+#include "motion/energy.h"
+#include "motion/step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,7 @@ namespace grainfrac {
 namespace {
 
 /// A state is on the failure surface within this share.
-constexpr double on_surface = 1e-4;
+constexpr double on_surface = 1e-3;
 /// Scalings to get there: one without friction, a few with it.
 constexpr int most_scalings = 12;
 /// An interface with this share of it left, or less, has nothing left to soften.
@@ -36,6 +38,7 @@ double overshoot(const Model& model, const State& state, const std::vector<int>&
 PullOutPath::PullOutPath(const PullOut& pull_out, const PathSettings& settings, const Model& model, const State& state)
     : pull_out_(pull_out), settings_(settings), relaxation_(model, state)
 {
+    remember_grip(state);
     settings_.relax.fracture = !settings.by_damage;
 }
 
@@ -55,11 +58,47 @@ void PullOutPath::scale(Model&, State& state, double factor)
     }
 }
 
-void PullOutPath::shift_fibre(const Model&, State& state, double by)
+/// What the springs take up at once is the work of this move; the grip keeps its place while all comes to rest.
+void PullOutPath::shift_fibre(Model& model, State& state, double by)
+{
+    Bodies& b = state.bodies;
+    const Ledger before = energy_ledger(model, state);
+    int grip = -1;
+    for (int i = 0; i < b.size(); ++i) {
+        if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
+        if (b.wall[i] == pull_out_.grip_wall) grip = i;
+    }
+    Model frozen = model;
+    frozen.fracture_active = false;
+    step(frozen, state, 0.0);
+    const Ledger after = energy_ledger(model, state);
+    b.external_work.at(grip) += before.residual() - after.residual();
+    remember_grip(state);
+}
+
+void PullOutPath::remember_grip(const State& state)
+{
+    const Bodies& b = state.bodies;
+    const auto n = static_cast<std::size_t>(b.size());
+    force_before_.resize(n);
+    position_before_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        force_before_[k] = b.force[static_cast<int>(k)];
+        position_before_[k] = b.position[static_cast<int>(k)];
+    }
+}
+
+/// Forces grow with the displacements: the mean of before and after does the work.
+void PullOutPath::book_scaling(State& state, double factor)
 {
     Bodies& b = state.bodies;
     for (int i = 0; i < b.size(); ++i) {
-        if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
+        if (b.wall[i] != pull_out_.grip_wall) continue;
+        const auto k = static_cast<std::size_t>(i);
+        const Vec3 after = factor * force_before_[k];
+        b.external_work.at(i) -= 0.5 * dot(force_before_[k] + after, b.position[i] - position_before_[k]);
+        force_before_[k] = after;
+        position_before_[k] = b.position[i];
     }
 }
 
@@ -67,18 +106,12 @@ void PullOutPath::shift_fibre(const Model&, State& state, double by)
 void PullOutPath::book_work(State& state)
 {
     Bodies& b = state.bodies;
-    const auto n = static_cast<std::size_t>(b.size());
-    const bool first = force_before_.size() != n;
-    force_before_.resize(n);
-    position_before_.resize(n);
     for (int i = 0; i < b.size(); ++i) {
         if (b.wall[i] != pull_out_.grip_wall) continue;
         const auto k = static_cast<std::size_t>(i);
-        const Vec3 before = first ? b.start_position[i] : position_before_[k];
-        b.external_work.at(i) -= 0.5 * dot(force_before_[k] + b.force[i], b.position[i] - before);
-        force_before_[k] = b.force[i];
-        position_before_[k] = b.position[i];
+        b.external_work.at(i) -= 0.5 * dot(force_before_[k] + b.force[i], b.position[i] - position_before_[k]);
     }
+    remember_grip(state);
 }
 
 bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>& interrupted)
@@ -132,8 +165,8 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     // half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes
     const double wanted = std::min(1.0, mean_damage(state, interfaces) + settings_.damage_step);
     const double reach = 1.0 + overshoot(model, state, interfaces, wanted), half = std::sqrt(reach);
-    scale(model, state, half);
-    if (!relax(model, state, interrupted)) return Found::not_at_rest;
+    scale(model, state, half);  // at rest still, but for friction and what turned
+    book_scaling(state, half);
     soften(model, state, interfaces, reach / half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;
     return rested(to_softening(model, state, interrupted));

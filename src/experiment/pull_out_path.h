@@ -38,7 +38,9 @@ private:
     bool relax(Model& model, State& state, const std::function<bool()>& interrupted);
     bool to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
     void scale(Model& model, State& state, double factor);
-    void shift_fibre(const Model& model, State& state, double by);
+    void shift_fibre(Model& model, State& state, double by);
+    void remember_grip(const State& state);
+    void book_scaling(State& state, double factor);
     void book_work(State& state);
 
     const PullOut& pull_out_;

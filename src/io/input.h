@@ -24,6 +24,9 @@ std::string render_problems(const std::vector<InputProblem>& problems, const std
 /// gives the same Case.
 std::string to_toml(const Case& c);
 
+/// One entry of [[bonds]], as in to_toml.
+std::string bonds_to_toml(const BondSpec& bond);
+
 /// docs/input.md between its markers: every key with meaning, type, unit, default, range, source. A test holds the
 /// committed file against this.
 std::string input_reference_markdown();

@@ -37,7 +37,10 @@ public:
         for (std::size_t i = 0; i < c_.walls.size(); ++i) wall(c_.walls[i], joined("walls", i));
         for (std::size_t i = 0; i < c_.grips.size(); ++i) grip(c_.grips[i], joined("grips", i));
         for (std::size_t i = 0; i < c_.stages.size(); ++i) stage(c_.stages[i], i);
-        if (right("test.kind")) {
+        for (std::size_t i = 0; i < c_.calibration.size(); ++i)
+            calibration(c_.calibration[i], joined("calibration", i));
+        const bool only_calibrates = !c_.calibration.empty() && !given("test") && c_.stages.empty();
+        if (right("test.kind") && !only_calibrates) {
             if (c_.test.kind == "custom")
                 custom();
             else
@@ -97,6 +100,22 @@ private:
         }
         return kind == "custom" ? std::vector<std::string>{}
                                 : std::vector<std::string>{"roller", "roller_top", "roller_bottom"};
+    }
+
+    void calibration(const CalibrationSpec& s, const std::string& key)
+    {
+        const std::string part = joined(key, "part");
+        if (!given(part) || !right(part) || !names_right_) return;
+        std::vector<std::string> parts;
+        for (const PartSpec& p : c_.parts) parts.push_back(p.name);
+        if (std::find(parts.begin(), parts.end(), s.part) == parts.end())
+            return fail(part, fmt::format("no part of this name; {}", choice(s.part, parts)));
+        if (!s.tensile_strength) return;
+        for (std::size_t i = 0; i < c_.bonds.size(); ++i) {
+            const auto& [a, b] = c_.bonds[i].between;
+            if (a == s.part && b == s.part && c_.bonds[i].failure == "unbreakable")
+                fail(joined(key, "tensile_strength"), fmt::format("{} is unbreakable", joined("bonds", i)));
+        }
     }
 
     void collect_names()

@@ -970,6 +970,50 @@ void describe(V& v, TestSpec& s)
 }
 
 template <class V>
+void describe(V& v, CalibrationSpec& s)
+{
+    v("part", s.part, {.required = always, .meaning = "whose bonds with itself are sought"});
+    v("young_modulus", s.young_modulus, {.unit = "Pa", .range = positive, .required = always, .meaning = "wanted"});
+    v("poisson_ratio", s.poisson_ratio,
+      {.range = {.least = -1.0, .most = 0.5, .above = true, .below = true},
+       .unset = "not sought: the shear ratio stays as it is",
+       .meaning = "wanted; springs reach at most 1/5 along the c axis of hcp, 1/3 in fcc and in the plane of hexagonal "
+                  "prisms, about 1/4 in random packings"});
+    v("tensile_strength", s.tensile_strength,
+      {.unit = "Pa",
+       .range = positive,
+       .unset = "not sought",
+       .meaning = "wanted, of the sample; strengths of the bonds keep their proportion, and must be given"});
+    v("tolerance", s.tolerance,
+      {.range = {.least = 1e-6, .most = 0.5},
+       .unset = "0.005, random packings 0.02",
+       .meaning = "of the modulus, and of the Poisson ratio over it (over 0.1 where it is less)"});
+    v("max_trials", s.max_trials, {.range = {.least = 1.0, .most = 100.0}, .meaning = "tension tests at most"});
+    v("measure", s.measure,
+      {.words = "auto | core | section",
+       .meaning = "core: mean stress over mean strain of the inside, the modulus of the material; section: force over "
+                  "section, of this very sample with its softer surface; auto: core, of fibres section"});
+    v("direction", s.direction,
+      {.words = "auto | x | y | z", .meaning = "of the pull; auto: hcp along c, hexagonal prisms along x, else z"});
+    v("width", s.width,
+      {.unit = "m",
+       .range = positive,
+       .unset = "12 spheres, 14 where they are random, 16 grains",
+       .meaning = "of the sample, a cylinder; of hexagonal prisms a plate"});
+    v("length", s.length, {.unit = "m", .range = positive, .unset = "as the width", .meaning = "of the sample"});
+    v("area", s.area,
+      {.unit = "m^2",
+       .range = positive,
+       .used = {s.measure != "core", "measure = \"section\""},
+       .unset = "lattices: of the cells of the spheres; fibres: their own",
+       .meaning = "section that carries the force"});
+    v("start_normal_stiffness", s.start_normal_stiffness,
+      {.unit = "Pa/m", .range = positive, .unset = "closed form", .meaning = "of the first trial"});
+    v("start_shear_ratio", s.start_shear_ratio,
+      {.range = not_negative, .unset = "closed form", .meaning = "of the first trial, k_s/k_n"});
+}
+
+template <class V>
 void describe(V& v, ControlSpec& s)
 {
     v("time_step_safety", s.time_step_safety, {.range = share_above_0, .meaning = "share of the critical time step"});
@@ -1025,6 +1069,9 @@ void describe(V& v, Case& c)
             {.meaning = "bodies of a part that are held or driven, each set a wall of its own; test `custom`"});
     v.array("stages", c.stages,
             {.meaning = "test `custom`: one after the other, each until the first of its end conditions"});
+    v.array("calibration", c.calibration,
+            {.meaning = "for `grainfrac calibrate`: a part and the elasticity and strength that it is to have; `run` "
+                        "leaves it aside"});
     v.table("test", c.test, {.meaning = "a ready-made experiment: places platens, loads, measures"});
     v.table("control", c.control, {.meaning = "time step, damping, gravity"});
     v.table("output", c.output, {.meaning = "what is written and how often"});

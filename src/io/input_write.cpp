@@ -304,6 +304,12 @@ std::string to_toml(const Case& c)
     return TomlWriter::written("# The input with every default, in SI units.\n", "", copy);
 }
 
+std::string bonds_to_toml(const BondSpec& bond)
+{
+    BondSpec copy = bond;
+    return TomlWriter::written("[[bonds]]\n", "bonds", copy);
+}
+
 std::string input_reference_markdown()
 {
     return MarkdownWriter::written<Case>("", "", {});

@@ -302,6 +302,22 @@ struct SourcePlace {
     std::string text;  ///< the value as written
 };
 
+/// Wanted elasticity and strength of a part, for `grainfrac calibrate`.
+struct CalibrationSpec {
+    std::string part;
+    double young_modulus = 0.0;                    ///< [Pa]
+    std::optional<double> poisson_ratio;           ///< [-]; auto: whatever comes of the shear ratio
+    std::optional<double> tensile_strength;        ///< [Pa]; auto: strengths stay as they are
+    std::optional<double> tolerance;               ///< [-]; auto: 0.005, random packings 0.02
+    std::int64_t max_trials = 8;                   ///< of the elastic constants [-]
+    std::string measure = "auto";                  ///< auto | core | section
+    std::string direction = "auto";                ///< auto | x | y | z
+    std::optional<double> width, length;           ///< of the sample [m]; auto: 12 spheres, 16 grains
+    std::optional<double> area;                    ///< section [m^2]; auto: of the packing
+    std::optional<double> start_normal_stiffness;  ///< [Pa/m]; auto: closed form
+    std::optional<double> start_shear_ratio;       ///< [-]; auto: closed form
+};
+
 struct Case {
     SimulationSpec simulation;
     std::vector<MaterialSpec> materials;
@@ -311,6 +327,7 @@ struct Case {
     std::vector<WallSpec> walls;
     std::vector<GripSpec> grips;
     std::vector<StageSpec> stages;
+    std::vector<CalibrationSpec> calibration;
     TestSpec test;
     ControlSpec control;
     OutputSpec output;

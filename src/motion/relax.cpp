@@ -17,6 +17,8 @@ constexpr double mass_safety = 0.9;      ///< of the stable step: Underwood's 1.
 constexpr int steps_between_looks = 10;  ///< for drag and residual
 /// The drag of a step is kept below this share of critical at the highest frequency, 2/dt.
 constexpr double most_drag = 0.5;
+/// The drag follows frequencies up to this many times the slowest known one.
+constexpr double above_slowest = 2.0;
 
 /// What is free of a body: 0 where it is driven or held.
 GF_FN Vec3 free_part(const Vec3& v, double inverse_mass, std::int32_t held)
@@ -173,6 +175,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
     old_force.resize(b.size());
     old_torque.resize(b.size());
     Relaxed r;
+    double frequency = 0.0;  // of the motion now [1/s]
     for (r.steps = 0; r.steps < settings.most_steps;) {
         for (int k = 0; k < steps_between_looks; ++k, ++r.steps) {
             if (k == steps_between_looks - 1) {
@@ -193,8 +196,12 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
                       b.angular_velocity.read(d), b.inverse_mass.read(d), b.held.read(d)});
         const double mass = sum_of_motion(model, state);
         const double rate = mass > 0.0 && stiff > 0.0 ? 2.0 * std::sqrt(stiff / (step_length * mass)) : 0.0;
-        model.drag_rate = std::min(rate, most_drag * 2.0 / step_length);
+        frequency = 0.5 * rate;
+        double drag = std::min(rate, most_drag * 2.0 / step_length);
+        if (slowest_ > 0.0) drag = std::min(drag, 2.0 * above_slowest * slowest_);
+        model.drag_rate = drag;
     }
+    if (frequency > 0.0) slowest_ = frequency;
     stop_motion(model, state);
     return r;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Equilibrium by dynamic relaxation: the steps of the core with fictitious masses, all bodies equally fast, and a drag
 // of twice the lowest frequency that is still excited (Underwood 1983): that of the Rayleigh quotient
-// -v.dF/(dt v.M v) of the present motion. Nothing breaks or softens meanwhile unless the model says so; friction
+// -v.dF/(dt v.M v) of the present motion, but not far above the slowest one of the relaxation before: a local
+// disturbance starts with fast motion, and a drag to match would make the slow one crawl. Nothing breaks or softens meanwhile unless the model says so; friction
 // slides.
 #pragma once
 
@@ -37,6 +38,7 @@ public:
 
 private:
     std::vector<FictitiousMass> masses_;
+    double slowest_ = 0.0;  ///< frequency of the motion at the end of the last relaxation [1/s]
 };
 
 }  // namespace grainfrac
