@@ -17,6 +17,8 @@ namespace {
 constexpr double on_surface = 1e-3;
 /// Scalings to get there: one without friction, a few with it.
 constexpr int most_scalings = 12;
+/// Towards the end events take this share of what is left, until this little is left.
+constexpr double last_steps = 0.3, nothing_left = 2e-3;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
 constexpr int bisections = 60;
@@ -31,6 +33,14 @@ double overshoot(const Model& model, const State& state, const std::vector<int>&
         (mean_damage_at(model, state, interfaces, 1.0 + middle) < wanted ? low : high) = middle;
     }
     return high;
+}
+
+/// Forces and energies of the state as it is.
+void step_in_place(const Model& model, State& state)
+{
+    Model frozen = model;
+    frozen.fracture_active = false;
+    step(frozen, state, 0.0);
 }
 
 }  // namespace
@@ -68,9 +78,7 @@ void PullOutPath::shift_fibre(Model& model, State& state, double by)
         if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
         if (b.wall[i] == pull_out_.grip_wall) grip = i;
     }
-    Model frozen = model;
-    frozen.fracture_active = false;
-    step(frozen, state, 0.0);
+    step_in_place(model, state);
     const Ledger after = energy_ledger(model, state);
     b.external_work.at(grip) += before.residual() - after.residual();
     remember_grip(state);
@@ -116,6 +124,7 @@ void PullOutPath::book_work(State& state)
 
 bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>& interrupted)
 {
+    step_in_place(model, state);  // the forces are those of before the move
     last_ = relaxation_.relax(model, state, settings_.relax, interrupted);
     book_work(state);
     return last_.at_rest;
@@ -163,7 +172,13 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         return rested(to_softening(model, state, interrupted));
     }
     // half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes
-    const double wanted = std::min(1.0, mean_damage(state, interfaces) + settings_.damage_step);
+    const double now = mean_damage(state, interfaces), left = 1.0 - now;
+    if (left < nothing_left) {
+        soften(model, state, interfaces, 1e9);
+        step_in_place(model, state);
+        return settings_.slides ? next(model, state, interrupted) : Found::end;
+    }
+    const double wanted = now + std::min(settings_.damage_step, last_steps * left);
     const double reach = 1.0 + overshoot(model, state, interfaces, wanted), half = std::sqrt(reach);
     scale(model, state, half);  // at rest still, but for friction and what turned
     book_scaling(state, half);

@@ -94,20 +94,18 @@ void soften(const Model& model, State& state, const std::vector<int>& interfaces
         double work = 0.0, released = 0.0, sheared = 0.0;
         bool started = false;
         for_each_live_point(state, i, [&](int q, const InterfaceJump& d, InterfacePointState p) {
-            const double before = p.damage;
-            const bool was_whole = p.onset == 0.0;
+            const InterfacePointState was = p;
             const InterfaceResponse r = softened(model, f, i, scaled(d, reach), p);
-            if (p.damage == before && p.onset == 0.0) return;
-            if (was_whole) {  // friction begins where the point is, not where the reach is
-                p.slip1 = d.s1;
-                p.slip2 = d.s2;
-                started = true;
-            }
+            if (p.onset == 0.0) return;
+            // friction begins, and has got to, where the point is, not where the reach is
+            p.slip1 = was.onset > 0.0 ? was.slip1 : d.s1;
+            p.slip2 = was.onset > 0.0 ? was.slip2 : d.s2;
+            started = started || was.onset == 0.0;
             const double w = state.points.weight[q], open = std::fmax(d.n, 0.0);
             const double s1 = d.s1 - p.slip1, s2 = d.s2 - p.slip2;
             work += w * r.fracture_work;
             sheared += w * r.shear_share;
-            released += 0.5 * w * (p.damage - before) *
+            released += 0.5 * w * (p.damage - was.damage) *
                         (k_n * open * open + k_s * (d.s1 * d.s1 + d.s2 * d.s2 - s1 * s1 - s2 * s2));
             state.points.damage.at(q) = p.damage;
             state.points.onset.at(q) = p.onset;

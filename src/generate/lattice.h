@@ -10,8 +10,9 @@ namespace grainfrac {
 
 /// Hexagonal close packing, c axis along `axis`: triangular layers at sqrt(2/3) d, as many as round(length/that), so
 /// that each stands for one such length; centred in the region, a site on the line through its centre in every second
-/// one (`channel`: where no layer has one, and all look alike). Rows of touching spheres run along the next axis (c along z: x). In order of layer, row, place. Throws
-/// InputError (key "diameter", "region") if there is none or too many.
+/// one (`channel`: where no layer has one, and all look alike). Rows of touching spheres run along the next axis (c
+/// along z: x). In order of layer, row, place. Throws InputError (key "diameter", "region") if there is none or too
+/// many.
 std::vector<Vec3> hcp_sites(const SphereRegion& region, double d, int axis, bool channel = false);
 
 /// Face-centred cubic, cube edges of sqrt(2) d along x, y, z, a site at the region's centre; in order of z, y, x.

@@ -58,9 +58,9 @@ FibreNodes nodes_of_layers(const PartSpec& p, const PartSpec& host_part, const S
     std::vector<double> layers;
     for (const SphereSpec& s : host) layers.push_back(s.position[axis]);
     std::sort(layers.begin(), layers.end());
-    layers.erase(std::unique(layers.begin(), layers.end(),
-                             [&](double x, double y) { return std::fabs(x - y) < round_off; }),
-                 layers.end());
+    layers.erase(
+        std::unique(layers.begin(), layers.end(), [&](double x, double y) { return std::fabs(x - y) < round_off; }),
+        layers.end());
     if (way[axis] < 0.0) std::reverse(layers.begin(), layers.end());
     FibreNodes nodes;
     for (const double z : layers) {
@@ -120,7 +120,8 @@ Spheres packed_spheres(const Case& c, std::size_t part)
     if (p.generator == "hcp" || p.generator == "fcc") {
         const bool hcp = p.generator == "hcp";
         for (const Vec3& x :
-             hcp ? hcp_sites(region, p.diameter, axis_index(p.lattice_axis), p.lattice_origin == "channel") : fcc_sites(region, p.diameter)) {
+             hcp ? hcp_sites(region, p.diameter, axis_index(p.lattice_axis), p.lattice_origin == "channel")
+                 : fcc_sites(region, p.diameter)) {
             add(x, model.radius);
         }
     } else {

@@ -101,14 +101,14 @@ struct PartSpec {
     double sliver_fraction = 0.05;          ///< [-]
     double gap = 0.0;                       ///< between neighbours, which are smaller by it [m]
     // spheres
-    double diameter = 0.0;           ///< hcp, fcc: spacing too; random_dense: the mean; chain: of its spheres [m]
-    double size_ratio = 1.0;         ///< random_dense: largest over smallest diameter [-]
-    double solid_fraction = 0.6;     ///< random_dense [-]
-    std::string lattice_axis = "z";  ///< hcp: c axis: x | y | z
+    double diameter = 0.0;                ///< hcp, fcc: spacing too; random_dense: the mean; chain: of its spheres [m]
+    double size_ratio = 1.0;              ///< random_dense: largest over smallest diameter [-]
+    double solid_fraction = 0.6;          ///< random_dense [-]
+    std::string lattice_axis = "z";       ///< hcp: c axis: x | y | z
     std::string lattice_origin = "site";  ///< hcp: site | channel: what lies on the line through the region's centre
-    std::string inside;              ///< part whose spheres make room (chain) or are taken (taken)
-    FibreSpec fibre;                 ///< chain
-    std::vector<Vec3> copies;        ///< chain: the same again, moved by these [m]
+    std::string inside;                   ///< part whose spheres make room (chain) or are taken (taken)
+    FibreSpec fibre;                      ///< chain
+    std::vector<Vec3> copies;             ///< chain: the same again, moved by these [m]
     RegionSpec region;
     std::string at_region_boundary = "keep";  ///< keep | cut
     OrientationSpec orientation;

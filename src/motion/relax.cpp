@@ -19,6 +19,8 @@ constexpr int steps_between_looks = 10;  ///< for drag and residual
 constexpr double most_drag = 0.5;
 /// The drag follows frequencies up to this many times the slowest known one.
 constexpr double above_slowest = 2.0;
+/// Forces below this share of the largest mean force there was are none.
+constexpr double least_measure = 1e-3;
 
 /// What is free of a body: 0 where it is driven or held.
 GF_FN Vec3 free_part(const Vec3& v, double inverse_mass, std::int32_t held)
@@ -66,6 +68,30 @@ struct Curvature {
                dot(torque[i] - old_torque[i], angular_velocity[i]);
     }
 };
+
+/// What a start from rest under a force lacks of the energy that it is given: h^2 F^2/(8 m), the leapfrog's own.
+struct StartLoss {
+    double h;
+    View<const Vec3> force, torque, inverse_inertia;
+    View<const Quat> orientation;
+    View<const double> inverse_mass;
+    View<const std::int32_t> held;
+    GF_FN double operator()(int i) const
+    {
+        const Vec3 t = rotate_back(orientation[i], torque[i]), j = inverse_inertia[i];
+        const double turning = held[i] >= 8 ? 0.0 : t.x * t.x * j.x + t.y * t.y * j.y + t.z * t.z * j.z;
+        return 0.125 * h * h * (inverse_mass[i] * norm2(free_part(force[i], inverse_mass[i], held[i])) + turning);
+    }
+};
+
+double start_loss(const Model& model, const State& state)
+{
+    const Device d = model.device;
+    const Bodies& b = state.bodies;
+    return parallel_sum(d, b.size(),
+                        StartLoss{step_length, b.force.read(d), b.torque.read(d), b.inverse_inertia.read(d),
+                                  b.orientation.read(d), b.inverse_mass.read(d), b.held.read(d)});
+}
 
 double sum_of_motion(const Model& model, const State& state)
 {
@@ -135,7 +161,8 @@ private:
     double local_damping_;
 };
 
-double residual(const Model& model, const State& state)
+/// `largest`: mean force of the interactions so far; once nothing pulls any more it is the measure.
+double residual(const Model& model, const State& state, double& largest)
 {
     const Device d = model.device;
     const Bodies& b = state.bodies;
@@ -144,7 +171,9 @@ double residual(const Model& model, const State& state)
         parallel_sum(d, b.size(), Residual{b.force.read(d), b.inverse_mass.read(d), b.held.read(d)}) / b.size();
     const double acting = parallel_sum(d, s.size(), IsActing{s.force.read(d)});
     const double mean = acting > 0.0 ? parallel_sum(d, s.size(), Acting{s.force.read(d)}) / acting : 0.0;
-    return mean > 0.0 ? left / mean : 0.0;
+    largest = std::max(largest, mean);
+    const double measure = std::max(mean, least_measure * largest);
+    return measure > 0.0 ? left / measure : 0.0;
 }
 
 /// What still moves at the end stops; its energy is the drag's.
@@ -174,6 +203,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
     Buffer<Vec3> old_force, old_torque;
     old_force.resize(b.size());
     old_torque.resize(b.size());
+    if (b.size() > 0) b.damping_work.at(0) += start_loss(model, state);
     Relaxed r;
     double frequency = 0.0;  // of the motion now [1/s]
     for (r.steps = 0; r.steps < settings.most_steps;) {
@@ -184,7 +214,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
             }
             step(model, state, step_length);
         }
-        r.residual = residual(model, state);
+        r.residual = residual(model, state, largest_force_);
         if (r.residual < settings.tolerance) {
             r.at_rest = true;
             break;
@@ -202,6 +232,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
         model.drag_rate = drag;
     }
     if (frequency > 0.0) slowest_ = frequency;
+    if (b.size() > 0) b.damping_work.at(0) -= start_loss(model, state);
     stop_motion(model, state);
     return r;
 }

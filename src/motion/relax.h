@@ -2,8 +2,8 @@
 // Equilibrium by dynamic relaxation: the steps of the core with fictitious masses, all bodies equally fast, and a drag
 // of twice the lowest frequency that is still excited (Underwood 1983): that of the Rayleigh quotient
 // -v.dF/(dt v.M v) of the present motion, but not far above the slowest one of the relaxation before: a local
-// disturbance starts with fast motion, and a drag to match would make the slow one crawl. Nothing breaks or softens meanwhile unless the model says so; friction
-// slides.
+// disturbance starts with fast motion, and a drag to match would make the slow one crawl. Nothing breaks or softens
+// meanwhile unless the model says so; friction slides.
 #pragma once
 
 #include "model/model.h"
@@ -38,7 +38,8 @@ public:
 
 private:
     std::vector<FictitiousMass> masses_;
-    double slowest_ = 0.0;  ///< frequency of the motion at the end of the last relaxation [1/s]
+    double largest_force_ = 0.0;  ///< mean of the interactions, over all relaxations [N]
+    double slowest_ = 0.0;        ///< frequency of the motion at the end of the last relaxation [1/s]
 };
 
 }  // namespace grainfrac
