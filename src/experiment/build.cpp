@@ -181,6 +181,7 @@ Built build(const Case& c, Device device)
     for (const PartSpec& p : c.parts) model.groups.push_back({p.name, material_index(p.material), false});
 
     std::vector<GrainSpec> grains = generate_grains(c);
+    make_room_for_fibres(c, grains);
     const std::vector<SphereSpec> spheres = generate_spheres(c);
     std::vector<double> spacing = grain_spacing(model, grains, spheres);
     model.nominal_length = *std::max_element(spacing.begin(), spacing.end());

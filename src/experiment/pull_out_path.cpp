@@ -22,6 +22,9 @@ constexpr double last_steps = 0.3, nothing_left = 2e-3;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
 constexpr int bisections = 60;
+/// After a slide: bits of way, each this share of it.
+constexpr int draws = 5;
+constexpr double draw = 0.01;
 
 /// Overshoot of the event that does `wanted` more mean damage, or breaks what is left.
 double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double wanted)
@@ -154,7 +157,14 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         if (!settings_.slides) return Found::end;
         settings_.relax.fracture = true;
         shift_fibre(model, state, settings_.slide);
-        return rested(relax(model, state, interrupted));
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
+        // Moved as one it goes back a little where it stretches, against the friction. Each further bit of way halves
+        // what is missing: its friction is nearer to the one that it is stretched for.
+        for (int k = 0; k < draws; ++k) {
+            shift_fibre(model, state, draw * settings_.slide);
+            if (!relax(model, state, interrupted)) return Found::not_at_rest;
+        }
+        return rested(true);
     }
     if (!settings_.by_damage) {
         const double now = pull_out_state(pull_out_, state).end_displacement;

@@ -228,11 +228,38 @@ std::vector<SphereSpec> generate_spheres(const Case& c)
         if (p.generator == "taken") of_part[k] = take(p, prototype(c, k), of_part[part_named(c, p.inside)]);
     });
     for_parts([&](std::size_t k, const PartSpec& p) {
-        if (p.generator == "chain" && !p.inside.empty()) make_room(p, of_part[k], of_part[part_named(c, p.inside)]);
+        if (p.generator == "chain" && !p.inside.empty() && c.parts[part_named(c, p.inside)].kind == "spheres")
+            make_room(p, of_part[k], of_part[part_named(c, p.inside)]);
     });
     Spheres all;
     for (const Spheres& spheres : of_part) all.insert(all.end(), spheres.begin(), spheres.end());
     return all;
+}
+
+void make_room_for_fibres(const Case& c, std::vector<GrainSpec>& grains)
+{
+    for (std::size_t k = 0; k < c.parts.size(); ++k) {
+        const PartSpec& p = c.parts[k];
+        if (p.kind != "spheres" || p.generator != "chain" || p.inside.empty()) continue;
+        const std::size_t host = part_named(c, p.inside);
+        if (c.parts[host].kind != "grains") continue;
+        const std::vector<Vec3> line = fibre_polyline(p.fibre);
+        const double radius = p.fibre.radius.value_or(0.5 * p.diameter);
+        const std::size_t before = grains.size();
+        for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
+            const Vec3 shift = copy == 0 ? Vec3{} : p.copies[copy - 1];
+            std::erase_if(grains, [&](const GrainSpec& g) {
+                return g.group == static_cast<std::int32_t>(host) &&
+                       distance_to_polyline(g.site - shift, line) < radius;
+            });
+        }
+        if (grains.size() == before) {
+            throw InputError(fmt::format("parts[{}].inside", k),
+                             fmt::format("no grain of \"{}\" has its centre in the fibre; the fibre must run where "
+                                         "grains can make room for it",
+                                         p.inside));
+        }
+    }
 }
 
 }  // namespace grainfrac

@@ -244,7 +244,8 @@ private:
             if (&other != &p && other.kind == "spheres" && other.generator != "chain" && other.generator != "taken")
                 hosts.push_back(other.name);
         }
-        if (std::find(hosts.begin(), hosts.end(), p.inside) == hosts.end()) {
+        const bool in_grains = p.generator == "chain" && is_a("grains", p.inside);
+        if (!in_grains && std::find(hosts.begin(), hosts.end(), p.inside) == hosts.end()) {
             fail(key,
                  "no other part of this name has kind = \"spheres\" and generator = \"hcp\", \"fcc\", "
                  "\"random_dense\" or \"file\"; " +
@@ -567,7 +568,9 @@ private:
                 const bool ends_itself = t.kind == "pull_out" && t.control == "damage";
                 const bool has_end = t.stop.load_drop || t.stop.strain || t.stop.time || t.stop.slip || t.stop.damage;
                 if (!ends_itself && !has_end)
-                    fail("test.stop", "the run would never end; required: at least one of load_drop, strain, time");
+                    fail("test.stop",
+                         fmt::format("the run would never end; required: at least one of load_drop, strain, time{}",
+                                     t.kind == "pull_out" ? ", slip, damage" : ""));
                 if (t.stop.rest) fail("test.stop.rest", "has no meaning here; it goes with kind = \"drop\"");
             }
         }

@@ -143,8 +143,8 @@ void add_sphere_bonds(const Model& model, const State& state, Stiffness& s)
 }
 
 /// Active contacts with their manifold. A grain near a wall counts as touching it with a whole face: platens touch
-/// first and are the stiffest.
-void add_contacts(const Model& model, const State& state, Stiffness& s)
+/// first and are the stiffest. `nearby`: every pair of the neighbour list counts, with its reference area.
+void add_contacts(const Model& model, const State& state, Stiffness& s, bool nearby = false)
 {
     const Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
@@ -154,12 +154,16 @@ void add_contacts(const Model& model, const State& state, Stiffness& s)
         const LinearContact law = model.contact_laws[c.law[i]];
         const ContactPoint p = c.point[i];
         const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
-        if (p.overlap_energy <= 0.0 && !with_wall) continue;
+        if (p.depth < 0.0 || (p.overlap_energy <= 0.0 && !with_wall && !nearby)) continue;
         double area = p.area;
         Vec3 arm[2] = {p.position - b.position[bodies[0]], p.position - b.position[bodies[1]]}, normal = p.normal;
         if (with_wall)
             area = std::fmax(
                 area, model.shapes.largest_face[b.shape[b.inverse_mass[bodies[0]] > 0.0 ? bodies[0] : bodies[1]]]);
+        if (nearby) {
+            area = std::fmax(area, std::fmin(model.shapes.point_area[b.shape[bodies[0]]],
+                                             model.shapes.point_area[b.shape[bodies[1]]]));
+        }
         if (p.overlap_energy <= 0.0) {  // where it will touch is not known yet: through the centre, square to the gap
             const ShapesView shapes = view(model.shapes, Device::cpu);
             const ContactBody x{shapes, b.shape[bodies[0]], b.position[bodies[0]], b.orientation[bodies[0]]};
@@ -318,7 +322,7 @@ std::vector<FictitiousMass> fictitious_masses(const Model& model, const State& s
     add_interfaces(state, s);
     add_parallels(state, s);
     add_sphere_bonds(model, state, s);
-    add_contacts(model, state, s);
+    add_contacts(model, state, s, true);
     std::vector<FictitiousMass> masses(s.K.size());
     for (int i = 0; i < b.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The example of the fibre pull-out, spoilt: what is said of the keys of spheres, fibres and their interfaces.
+#include "experiment/experiment.h"
+#include "input_files.h"
+
+#include <catch2/catch.hpp>
+
+using namespace grainfrac;
+using namespace grainfrac::test;
+
+namespace {
+
+std::string example()
+{
+    std::ifstream in(GF_SOURCE_DIR "/examples/fibre_pullout/fibre_pullout.toml");
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("wrong keys of a pull-out are told with what is allowed", "[input]")
+{
+    const std::string good = example();
+    REQUIRE(problems_of(good).empty());
+    const auto report = [&](const char* from, const char* to) { return problems_of(replaced(good.c_str(), from, to)); };
+    CHECK(report("matrix      = \"matrix\"", "matrix      = \"matrx\"") ==
+          "error: FILE:55: test.matrix = \"matrx\": no such part; there are \"matrix\", \"fibre\"; did you mean "
+          "\"matrix\"?\n");
+    CHECK(report("fibre       = \"fibre\"", "fibre       = \"matrix\"") ==
+          "error: FILE:54: test.fibre = \"matrix\": must be a part of spheres with generator = \"chain\" or \"taken\"\n"
+          "error: FILE:55: test.matrix = \"matrix\": must be another part than test.fibre\n");
+    CHECK(
+        report("damage_step = 0.005", "control = \"displacement\"") ==
+        "error: FILE:52: test.stop: the run would never end; required: at least one of load_drop, strain, time, slip, "
+        "damage\n");
+    CHECK(report("damage_step = 0.005", "damage_step = 0") ==
+          "error: FILE:56: test.damage_step = 0: must be >= 1e-06 and <= 1\n");
+    CHECK(report("damage_step = 0.005", "platen_speed = 1") ==
+          "error: FILE:56: test.platen_speed = 1: has no meaning here; it goes with control = \"speed\"\n");
+    CHECK(report("\"3 mm\"", "\"1 mm\"") ==
+          "error: FILE:50: bonds[2].failure_slip = \"1 mm\": must be > 0.001 m, the yield_slip\n");
+    CHECK(report("yield_slip      = \"1 mm\"\n", "") ==
+          "error: FILE:45: bonds[2].yield_slip: missing; required with failure_slip\n");
+    CHECK(
+        report("law     = \"parallel\"", "law     = \"point\"") ==
+        "error: FILE:37: bonds[0].law = \"point\": \"point\" joins grains; spheres take \"parallel\" or \"spring\"\n");
+    CHECK(report("[test]", "[control]\ngravity = [0, 0, 1]\n[test]") ==
+          "error: FILE:53: control.gravity = [0, 0, 1]: has no place in a row of equilibria; use test.control = "
+          "\"speed\"\n");
+}

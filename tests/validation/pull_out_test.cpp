@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fibre pull-out against axisymmetric elasticity and the closed forms of the shear-lag path (physics/bonded_spheres 10,
+// 11): the case of Dressler 2020, table 4-3, nothing tuned.
+#include "experiment/pull_out.h"
+
+#include "experiment/experiment.h"
+#include "experiment/pull_out_path.h"
+#include "motion/energy.h"
+#include "motion/step.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+using namespace grainfrac;
+
+namespace {
+
+/// Matrix of spheres of 1 m, E 5 GPa, radius 6 m; fibre of E 50 GPa, radius 1 m.
+Case pull_out_case(double length)
+{
+    Case c;
+    MaterialSpec stiff, soft;
+    stiff.name = "stiff";
+    stiff.density = 4443.0;
+    stiff.young_modulus = 50e9;
+    stiff.poisson_ratio = 0.2;
+    soft = stiff;
+    soft.name = "soft";
+    soft.young_modulus = 5e9;
+    c.materials = {stiff, soft};
+    PartSpec matrix, fibre;
+    matrix.name = "matrix";
+    matrix.kind = fibre.kind = "spheres";
+    matrix.material = "soft";
+    matrix.generator = "hcp";
+    matrix.lattice_origin = "channel";
+    matrix.diameter = 1.0;
+    matrix.region.shape = "cylinder";
+    matrix.region.diameter = 12.0;
+    matrix.region.height = length;
+    fibre.name = "fibre";
+    fibre.material = "stiff";
+    fibre.generator = "chain";
+    fibre.diameter = 0.8;
+    fibre.inside = "matrix";
+    fibre.fibre.from = {0.0, 0.0, -0.5 * length - 0.5};
+    fibre.fibre.to = {0.0, 0.0, 0.5 * length + 0.5};
+    fibre.fibre.radius = 1.0;
+    c.parts = {matrix, fibre};
+    BondSpec solid, line, interface;
+    solid.law = "parallel";
+    solid.failure = "unbreakable";
+    line = solid;
+    line.between = {"fibre", "fibre"};
+    solid.between = {"matrix", "matrix"};
+    solid.shear_ratio = 0.4;  // the lattice's axial shear modulus is then E/(2 (1 + 0.3))
+    interface.between = {"fibre", "matrix"};
+    interface.shear_stiffness = 1e9;
+    interface.yield_slip = 1e-3;
+    interface.failure_slip = 3e-3;
+    c.bonds = {solid, line, interface};
+    c.test.kind = "pull_out";
+    c.test.fibre = "fibre";
+    c.test.matrix = "matrix";
+    return c;
+}
+
+struct Run {
+    Built built;
+    std::vector<PullOutState> path;
+
+    explicit Run(const Case& c) : built(build(c, Device::cpu)) { start(built.model, built.state); }
+
+    const PullOut& pull_out() const { return *built.experiment.pull_out; }
+    PullOutState now() const { return pull_out_state(pull_out(), built.state); }
+    /// All equilibria until `enough` says so.
+    template <class Enough>
+    void follow(const PathSettings& settings, const Enough& enough)
+    {
+        PullOutPath p(pull_out(), settings, built.model, built.state);
+        path = {now()};
+        while (p.next(built.model, built.state, {}) == PullOutPath::Found::equilibrium) {
+            path.push_back(now());
+            if (enough(path.back())) return;
+        }
+    }
+    double largest(double PullOutState::*what) const
+    {
+        return (*std::max_element(path.begin(), path.end(),
+                                  [&](const PullOutState& x, const PullOutState& y) { return x.*what < y.*what; })).*
+               what;
+    }
+};
+
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at)
+{
+    const auto above = std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin()), 1, x.size() - 1);
+    return y[above - 1] + (at - x[above - 1]) / (x[above] - x[above - 1]) * (y[above] - y[above - 1]);
+}
+
+/// Columns of a file of numbers with one line of names.
+std::vector<std::vector<double>> columns_of(const std::string& file)
+{
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    std::vector<std::vector<double>> columns;
+    while (std::getline(in, line)) {
+        std::stringstream cells(line);
+        std::size_t k = 0;
+        for (std::string cell; std::getline(cells, cell, ','); ++k) {
+            if (columns.size() <= k) columns.emplace_back();
+            columns[k].push_back(std::stod(cell));
+        }
+    }
+    return columns;
+}
+
+PathSettings by_damage(double step)
+{
+    PathSettings s;
+    s.damage_step = step;
+    s.shift = 1e-3;
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("pull-out: shear and fibre stress before yield are those of axisymmetric elasticity", "[pull_out][slow]")
+{
+    Run run(pull_out_case(30.0));
+    run.follow(by_damage(0.01), [](const PullOutState&) { return true; });
+    const auto exact = columns_of(GF_SOURCE_DIR "/tests/data/fibre/elastic_30.21m.csv");
+    REQUIRE(exact.size() == 3);
+    const std::vector<double>&z = exact[0], &tau = exact[1], &sigma = exact[2];
+    REQUIRE(run.pull_out().length == Approx(z.back()).epsilon(1e-6));
+    const double scale = run.path.back().end_stress / sigma.back();  // linear: at equal load
+    const FibreProfile p = fibre_profile(run.pull_out(), run.built.state);
+    double shear = 0.0, stress = 0.0;
+    for (std::size_t k = 0; k < p.position.size(); ++k) {
+        shear += std::pow(p.shear[k] - scale * interpolated(z, tau, p.position[k]), 2);
+        stress += std::pow(p.stress[k] - scale * interpolated(z, sigma, p.position[k]), 2);
+    }
+    const auto n = static_cast<double>(p.position.size());
+    const auto [low, high] = std::minmax_element(tau.begin(), tau.end());
+    CHECK(std::sqrt(shear / n) / (scale * (*high - *low)) < 0.015);
+    CHECK(std::sqrt(stress / n) / (scale * sigma.back()) < 0.01);
+    // the pull is what the support bears, and what the shear adds up to
+    CHECK(p.stress.back() + 0.5 * p.shear.back() * 2.0 * run.pull_out().piece ==
+          Approx(run.path.back().end_stress).epsilon(1e-4));
+}
+
+TEST_CASE("pull-out: the path turns back and ends at the failure slip without stress", "[pull_out][slow]")
+{
+    Run run(pull_out_case(15.0));
+    run.follow(by_damage(0.02), [](const PullOutState&) { return false; });
+    // shear-lag at L = 15: 18.2285 MPa, 4.4355 mm; elasticity is 4.5 % above in stress, 2.1 % below in slip (L = 30)
+    CHECK(1e-6 * run.largest(&PullOutState::end_stress) == Approx(18.2285 * 1.045).epsilon(0.03));
+    CHECK(1e3 * run.largest(&PullOutState::exit_slip) == Approx(4.4355 * 0.979).epsilon(0.03));
+    const PullOutState& last = run.path.back();
+    CHECK(last.end_stress < 0.02 * run.largest(&PullOutState::end_stress));
+    CHECK(last.exit_slip == Approx(3e-3).epsilon(0.05));
+    // last stage: slip over stress falls on the straight line to (failure slip, 0), slope (L - l*)/E_f
+    std::vector<PullOutState> tail;
+    for (const PullOutState& s : run.path) {
+        if (s.mean_damage > 0.8 && s.end_stress < 10e6) tail.push_back(s);
+    }
+    REQUIRE(tail.size() > 3);
+    const double slope =
+        (tail.front().exit_slip - tail.back().exit_slip) / (tail.front().end_stress - tail.back().end_stress);
+    CHECK(slope == Approx((run.pull_out().length - 9.7064) / 50e9).epsilon(0.1));
+    // all that was to break did
+    const Ledger e = energy_ledger(run.built.model, run.built.state);
+    double area = 0.0;
+    for (const int i : fibre_interfaces(run.pull_out(), run.built.state)) area += run.built.state.interfaces.area[i];
+    CHECK(area == Approx(2.0 * std::numbers::pi * run.pull_out().length).epsilon(1e-9));
+    CHECK(e.fracture == Approx(1500.0 * area).epsilon(5e-3));
+    CHECK(e.relative_error() < 5e-3);
+}
+
+TEST_CASE("pull-out: a broken interface slides under its residual shear and under pressure", "[pull_out]")
+{
+    Case c = pull_out_case(5.0);
+    c.parts[0].region.diameter = 6.0;
+    c.bonds[2].residual_shear = 0.1e6;
+    c.bonds[2].friction = 0.2;
+    c.bonds[2].residual_friction = 0.2;
+    c.bonds[2].radial_pressure = 0.5e6;  // the same once more
+    Run run(c);
+    PathSettings s = by_damage(0.2);
+    s.shift = 1e-3;
+    s.slides = true;
+    s.slide = 0.4;
+    run.follow(s, [](const PullOutState& now) { return now.exit_slip > 2.0; });
+    const PullOut& p = run.pull_out();
+    // patches leave the friction one level after the other: tau_r times the area that is left
+    for (const PullOutState& now : run.path) {
+        if (now.exit_slip < 0.2) continue;
+        double left = 0.0;
+        const double levels = std::round(p.length / p.piece);
+        for (int k = 0; k < static_cast<int>(levels); ++k) {
+            if ((k + 0.5) * p.piece > now.exit_slip) left += p.piece;
+        }
+        CHECK(now.end_stress == Approx(2.0 * 0.2e6 * left).epsilon(0.01));
+    }
+    CHECK(run.path.back().exit_slip > 2.0);
+}
