@@ -21,13 +21,13 @@ GF_FN Vec3 scaled(const Vec3& a, const Vec3& b)
 }
 
 /// Bits of Bodies::held.
-constexpr std::int32_t held_axis[3] = {1, 2, 4}, held_rotation = 8;
+constexpr std::int32_t held_x = 1, held_y = 2, held_z = 4, held_rotation = 8;
 
 /// The components that a partly held body does not choose itself are put back to those of `driven`.
 GF_FN Vec3 with_held(const Vec3& v, const Vec3& driven, std::int32_t held)
 {
-    return {(held & held_axis[0]) != 0 ? driven.x : v.x, (held & held_axis[1]) != 0 ? driven.y : v.y,
-            (held & held_axis[2]) != 0 ? driven.z : v.z};
+    return {(held & held_x) != 0 ? driven.x : v.x, (held & held_y) != 0 ? driven.y : v.y,
+            (held & held_z) != 0 ? driven.z : v.z};
 }
 
 /// All but driven bodies and those without rotation; a pin is driven and turns.
