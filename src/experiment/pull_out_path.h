@@ -48,7 +48,7 @@ private:
     Relaxation relaxation_;
     Relaxed last_;
     std::vector<Vec3> force_before_, position_before_;  // of the grip, for the work of its next move
-    bool started_ = false, broken_ = false;
+    bool started_ = false;
 };
 
 }  // namespace grainfrac

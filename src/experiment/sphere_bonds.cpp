@@ -249,8 +249,9 @@ std::vector<FibreChain> chains_of(const Case& c, const std::vector<SphereSpec>& 
     }
     std::vector<FibreChain> all;
     for (auto& [number, chain] : chains) {
+        const std::vector<int>& nodes = chain.nodes;
         const auto at = [&](std::size_t k) {
-            return spheres[static_cast<std::size_t>(chain.nodes[k] - first_body)].position;
+            return spheres[static_cast<std::size_t>(nodes[k] - first_body)].position;
         };
         double length = 0.0;
         for (std::size_t k = 1; k < chain.nodes.size(); ++k) length += norm(at(k) - at(k - 1));
