@@ -213,13 +213,21 @@ private:
         }
     }
 
-    std::string why_path_ended() const
+    std::string why_pull_out_ended() const
     {
         const PullOutState& s = experiment_.pull_out->path.back();
         const StopSpec& stop = case_.test.stop;
         if (stop.damage && s.mean_damage >= *stop.damage)
             return fmt::format("mean damage {:.4g} reached", s.mean_damage);
         if (stop.slip && s.exit_slip >= *stop.slip) return fmt::format("slip {:.4g} m reached", s.exit_slip);
+        return {};
+    }
+
+    std::string why_path_ended() const
+    {
+        if (const std::string why = why_pull_out_ended(); !why.empty()) return why;
+        const PullOutState& s = experiment_.pull_out->path.back();
+        const StopSpec& stop = case_.test.stop;
         if (stop.strain && s.end_displacement >= *stop.strain * experiment_.pull_out->length)
             return fmt::format("displacement {:.4g} m reached", s.end_displacement);
         if (stop.time && state_.time >= *stop.time) return fmt::format("{:.0f} equilibria", state_.time);
@@ -493,6 +501,9 @@ private:
             return fmt::format("time {:.4g} s reached", state_.time);
         if (s.displacement && stage_displacement() >= *s.displacement) {
             return fmt::format("displacement {:.4g} m reached", stage_displacement());
+        }
+        if (experiment_.pull_out && !experiment_.pull_out->path.empty()) {
+            if (const std::string why = why_pull_out_ended(); !why.empty()) return why;
         }
         const double load = stage_load(s);
         const auto reached = [&](double wanted) { return s.unloads ? load <= wanted : load >= wanted; };

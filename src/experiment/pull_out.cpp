@@ -79,6 +79,24 @@ Vec3 direction_of(const PartSpec& part, const State& state, int group)
     return normalized(state.bodies.position[last] - state.bodies.position[last - 1]);
 }
 
+/// Damage control does damage to the interface of the fibre alone: all else must hold, and the interface must not.
+void check_only_the_interface_softens(const Case& c, const PullOut& p, const Model& model, const State& state)
+{
+    for (const int i : fibre_interfaces(p, state)) {
+        if (model.interface_laws[state.interfaces.law[i]].failure != FailureUnit::point)
+            throw InputError("test.control",
+                             "\"damage\" needs an interface that yields: give yield_slip in its [[bonds]], or use "
+                             "\"displacement\"");
+    }
+    for (std::size_t k = 0; k < c.bonds.size(); ++k) {
+        const BondSpec& b = c.bonds[k];
+        if (b.shear_stiffness > 0.0 || b.failure == "unbreakable") continue;
+        throw InputError(fmt::format("bonds[{}].failure", k),
+                         "must be \"unbreakable\" with test.control = \"damage\", in which only the interface of the "
+                         "fibre breaks; or use \"displacement\" or \"speed\"");
+    }
+}
+
 /// Results that the whole path tells.
 std::vector<NamedResult> results(const Experiment& e, const std::vector<CurvePoint>&)
 {
@@ -221,6 +239,9 @@ Experiment set_up_pull_out(const Case& c, Model& model, State& state)
     p.support_wall = add_wall(model, "support");
     const Range fibre = range_of(state, p.fibre_group, p.direction);
     const bool lattice = part.generator == "taken";
+    if (lattice && part.region.shape != "cylinder" && part.region.shape != "disc")
+        throw InputError(fmt::format("parts[{}].region.shape", p.fibre_group),
+                         "must be \"cylinder\" for a fibre that is pulled out: it has the section of the circle");
     p.piece = level_distance(state, p.fibre_group, p.direction);
     p.embedded_end = fibre.low - 0.5 * p.piece;
     int ends = 0;
@@ -255,6 +276,8 @@ Experiment set_up_pull_out(const Case& c, Model& model, State& state)
                          fmt::format("no interface between \"{}\" and \"{}\"; required: [[bonds]] of law = "
                                      "\"interface\" between them",
                                      c.test.fibre, c.test.matrix));
+
+    if (c.test.control == "damage") check_only_the_interface_softens(c, p, model, state);
 
     Experiment e;
     e.kind = c.test.kind;

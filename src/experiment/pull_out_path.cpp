@@ -56,18 +56,33 @@ PullOutPath::PullOutPath(const PullOut& pull_out, const PathSettings& settings, 
 }
 
 /// All displacements and turns since the start by a factor; grips too.
-void PullOutPath::scale(Model&, State& state, double factor)
+void PullOutPath::scale(State& state, double factor)
 {
     Bodies& b = state.bodies;
+    double farthest = 0.0;
     auto& position = b.position.host();
     auto& orientation = b.orientation.host();
     for (int i = 0; i < b.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
+        farthest = std::max(farthest, norm(position[k] - b.start_position[i]));
         position[k] = b.start_position[i] + factor * (position[k] - b.start_position[i]);
         const Vec3 turn = factor * rotation_vector(orientation[k] * conjugate(b.start_orientation[i]));
         const double angle = norm(turn);
         orientation[k] = angle > 0.0 ? normalized(from_axis_angle(turn / angle, angle) * b.start_orientation[i])
                                      : b.start_orientation[i];
+    }
+    state.travel += std::fabs(factor - 1.0) * farthest;
+    // incremental bonds remember forces: in proportion too
+    SphereBonds& p = state.sphere_bonds;
+    for (int k = 0; k < p.size(); ++k) {
+        p.shear_force.at(k) = factor * p.shear_force[k];
+        p.moment.at(k) = factor * p.moment[k];
+        p.twist.at(k) *= factor;
+    }
+    ParallelBonds& q = state.parallels;
+    for (int k = 0; k < q.size(); ++k) {
+        q.force.at(k) = factor * q.force[k];
+        q.moment.at(k) = factor * q.moment[k];
     }
 }
 
@@ -76,6 +91,7 @@ void PullOutPath::shift_fibre(Model& model, State& state, double by)
 {
     Bodies& b = state.bodies;
     const Ledger before = energy_ledger(model, state);
+    state.travel += std::fabs(by);
     int grip = -1;
     for (int i = 0; i < b.size(); ++i) {
         if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
@@ -139,7 +155,7 @@ bool PullOutPath::to_softening(Model& model, State& state, const std::function<b
     for (int k = 0; k < most_scalings; ++k) {
         const double factor = factor_to_softening(model, state, interfaces);
         if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface) return true;
-        scale(model, state, factor);
+        scale(state, factor);
         if (!relax(model, state, interrupted)) return false;
     }
     return true;
@@ -169,7 +185,7 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     if (!settings_.by_damage) {
         const double now = pull_out_state(pull_out_, state).end_displacement;
         if (started_ && now > 0.0)
-            scale(model, state, 1.0 + settings_.shift / now);
+            scale(state, 1.0 + settings_.shift / now);
         else
             shift_fibre(model, state, settings_.shift);
         started_ = true;
@@ -186,11 +202,13 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     if (left < nothing_left) {
         soften(model, state, interfaces, 1e9);
         step_in_place(model, state);
-        return settings_.slides ? next(model, state, interrupted) : Found::end;
+        const bool broken = mean_damage(state, interfaces) >= all_broken;
+        return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
     }
     const double wanted = now + std::min(settings_.damage_step, last_steps * left);
+    if (factor_to_softening(model, state, interfaces) == 0.0) return Found::end;  // nothing can soften
     const double reach = 1.0 + overshoot(model, state, interfaces, wanted), half = std::sqrt(reach);
-    scale(model, state, half);  // at rest still, but for friction and what turned
+    scale(state, half);  // at rest still, but for friction and what turned
     book_scaling(state, half);
     soften(model, state, interfaces, reach / half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;

@@ -37,7 +37,7 @@ public:
 private:
     bool relax(Model& model, State& state, const std::function<bool()>& interrupted);
     bool to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
-    void scale(Model& model, State& state, double factor);
+    void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
     void remember_grip(const State& state);
     void book_scaling(State& state, double factor);

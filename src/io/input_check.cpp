@@ -330,8 +330,8 @@ private:
         if (b.law != "interface" && b.softening == "bilinear" && given(path + ".softening") && right(path + ".law")) {
             fail(path + ".softening", fmt::format("\"bilinear\" needs law = \"interface\", not \"{}\"", b.law));
         }
-        if (b.residual_friction && *b.residual_friction > b.friction && right(path + ".residual_friction") &&
-            right(path + ".friction")) {
+        if (b.shear_stiffness == 0.0 && b.residual_friction && *b.residual_friction > b.friction &&
+            right(path + ".residual_friction") && right(path + ".friction")) {
             fail(path + ".residual_friction",
                  fmt::format("must be <= friction, {}: broken bonds would create energy", b.friction));
         }

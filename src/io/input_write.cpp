@@ -218,9 +218,9 @@ std::string default_text(const std::string& member, const Facts&)
     return member.empty() ? "none" : '`' + toml_text(member) + '`';
 }
 template <class T>
-std::string default_text(const std::vector<T>&, const Facts&)
+std::string default_text(const std::vector<T>& member, const Facts&)
 {
-    return "none";
+    return member.empty() ? "none" : '`' + toml_text(member) + '`';
 }
 
 bool ever_required(const Facts& f)

@@ -109,7 +109,6 @@ public:
           inertia_(state.bodies.inertia.host()),
           inverse_inertia_(state.bodies.inverse_inertia.host()),
           time_(state.time),
-          gravity_(model.gravity),
           motion_(model.wall_motion.host()),
           fracture_(model.fracture_active),
           dashpots_(model.dashpots_active),
@@ -155,7 +154,6 @@ private:
     std::vector<double> mass_, inverse_mass_;
     std::vector<Vec3> inertia_, inverse_inertia_;
     double time_;
-    Vec3 gravity_;
     std::vector<WallMotion> motion_;
     bool fracture_, dashpots_;
     double local_damping_;
@@ -204,6 +202,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
     old_force.resize(b.size());
     old_torque.resize(b.size());
     if (b.size() > 0) b.damping_work.at(0) += start_loss(model, state);
+    const double time = state.time;
     Relaxed r;
     double frequency = 0.0;  // of the motion now [1/s]
     for (r.steps = 0; r.steps < settings.most_steps;) {
@@ -213,6 +212,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
                              KeepForces{b.force.read(d), b.torque.read(d), old_force.write(d), old_torque.write(d)});
             }
             step(model, state, step_length);
+            state.time = time;  // what breaks on the way does so at this equilibrium
         }
         r.residual = residual(model, state, largest_force_);
         if (r.residual < settings.tolerance) {

@@ -61,8 +61,8 @@ struct Stiffness {
         const auto i = static_cast<std::size_t>(body);
         if (wanted[i] == 0) return;
         add_spring(K[i], arm, n, k_n, k_s);
-        if (k_n > strongest[i]) {
-            strongest[i] = k_n;
+        if (std::fmax(k_n, k_s) > strongest[i]) {  // the interface of a fibre has no k_n
+            strongest[i] = std::fmax(k_n, k_s);
             source[i] = what;
         }
     }
