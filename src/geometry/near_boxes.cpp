@@ -12,6 +12,8 @@ namespace {
 
 /// A body this many times wider than the median is no cell-list member: it is tested against all boxes (platens).
 constexpr double large_body = 4.0;
+/// Cells beyond it are not told apart: nothing sound is there.
+constexpr double farthest_cell = 1e15;
 
 bool overlap(const Box& a, const Box& b)
 {
@@ -46,7 +48,10 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes
         return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^
                static_cast<std::uint64_t>(z * 83492791LL);
     };
-    const auto cell_of = [&](const Vec3& x, int k) { return static_cast<std::int64_t>(std::floor(x[k] / cell[k])); };
+    const auto cell_of = [&](const Vec3& x, int k) {
+        const double place = std::floor(x[k] / cell[k]);
+        return std::fabs(place) < farthest_cell ? static_cast<std::int64_t>(place) : 0;  // of an unstable run: anywhere
+    };
     std::unordered_map<std::uint64_t, std::vector<int>> grid;
     for (int i = 0; i < n; ++i) {
         const Box& b = boxes[static_cast<std::size_t>(i)];
