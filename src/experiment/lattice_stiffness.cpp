@@ -70,10 +70,4 @@ std::optional<LatticeStiffness> random_stiffness(double E, double nu, double den
     return lattice_stiffness(Packing::random, E, nu, density);
 }
 
-LatticeStiffness chain_stiffness(double E, double section_radius, double spacing)
-{
-    const double R = section_radius, h = spacing;
-    return {E * std::numbers::pi * R * R / h, 1.5 * R * R / (h * h)};
-}
-
 }  // namespace grainfrac

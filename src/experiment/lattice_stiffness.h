@@ -53,8 +53,4 @@ std::optional<LatticeStiffness> fcc_stiffness(double E, double nu, double diamet
 /// Isotropic random packing; density as above.
 std::optional<LatticeStiffness> random_stiffness(double E, double nu, double density);
 
-/// A chain of nodes as a bar of circular section: K_n = E A/h, and the ratio 6 I/(A h^2) with which its nodes lie on
-/// the line of an Euler-Bernoulli beam.
-LatticeStiffness chain_stiffness(double E, double section_radius, double spacing);
-
 }  // namespace grainfrac

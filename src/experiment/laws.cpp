@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiment/laws.h"
 
+#include "experiment/lattice_stiffness.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -99,12 +101,15 @@ int most_specific(const std::vector<std::array<std::string, 2>>& betweens, const
 NetworkStiffness network_stiffness(const std::string& kind, double E, double nu, std::optional<double> shear_ratio)
 {
     if (kind == "plane") {
-        const double s = shear_ratio.value_or((1.0 - 3.0 * nu) / (1.0 + nu));
-        return {E * (3.0 + s) / (2.0 * (1.0 + s)), s};
+        const double s =
+            shear_ratio ? *shear_ratio : lattice_stiffness(Packing::honeycomb, E, nu, 1.0).value().shear_ratio;
+        return {lattice_stiffness_at(Packing::honeycomb, E, s, 1.0).normal, s};
     }
     if (kind == "solid") {
-        const double s = shear_ratio.value_or((1.0 - 4.0 * nu) / (1.0 + nu));
-        return {E * (4.0 + s) / (2.0 + 3.0 * s), s};
+        // cells fill space: the sum of k_n A h over a volume is three times k_n h
+        const double s =
+            shear_ratio ? *shear_ratio : lattice_stiffness(Packing::random, E, nu, 3.0).value().shear_ratio;
+        return {lattice_stiffness_at(Packing::random, E, s, 3.0).normal, s};
     }
     return {E, shear_ratio.value_or(1.0)};
 }

@@ -60,11 +60,3 @@ TEST_CASE("springs of packings: range of Poisson ratios and the way back")
         CHECK(lattice_stiffness(p, 4e9, e.poisson_ratio, 2.0)->shear_ratio == Approx(0.3).epsilon(1e-14));
     }
 }
-
-// The beam of 50 spheres of radius 1 m, E = 1 GPa: K_n = E A/h, K_s/K_n = 3/8.
-TEST_CASE("springs of a chain: bar and Euler-Bernoulli beam")
-{
-    const LatticeStiffness k = chain_stiffness(1e9, 1.0, 2.0);
-    CHECK(k.normal == Approx(1e9 * 3.14159265358979 / 2.0).epsilon(1e-13));
-    CHECK(k.shear_ratio == Approx(0.375).epsilon(1e-14));
-}
