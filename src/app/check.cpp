@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/prepare.h"
 #include "app/summary.h"
+#include "experiment/calibration.h"
 #include "gpu/device.h"
 #include "io/input.h"
 #include "motion/step.h"
@@ -37,9 +38,32 @@ void start_check(const Case& c, Built& built)
     }
 }
 
+namespace {
+
+/// What `grainfrac calibrate` would do with an input that has nothing to run.
+int check_calibration(const Case& c, Device device)
+{
+    fmt::print("{}\n", to_toml(c));
+    for (std::size_t i = 0; i < c.calibration.size(); ++i) {
+        try {
+            const CalibrationSample sample(c, i, device);
+            fmt::print("# calibration of \"{}\": a sample of {} bodies, {} bonds\n", c.calibration[i].part,
+                       sample.bodies(), sample.bonds());
+        } catch (const InputError& e) {
+            report(e, c);
+            throw ReportedInputError{};
+        }
+    }
+    return exit_code::done;
+}
+
+}  // namespace
+
 int check_command(const Options& o)
 {
     const Case c = load_case(o);
+    if (!c.calibration.empty() && c.stages.empty() && c.places.count("test") == 0)
+        return check_calibration(c, parse_device(o.device));
     Built b = build_case(c, parse_device(o.device));
     start_check(c, b);
     const ChosenStep s = choose_time_step(c, b.model, b.state);
@@ -58,7 +82,8 @@ int check_command(const Options& o)
                    b.experiment.quasi_static_speed);
     }
     fmt::print("# memory {:.0f} MB\n", static_cast<double>(peak_memory()) / 1e6);
-    if (b.experiment.expected_duration > 0.0) {
+    const bool takes_steps = !b.experiment.pull_out || !b.experiment.pull_out->quasi_static;
+    if (takes_steps && b.experiment.expected_duration > 0.0) {
         const double steps = b.experiment.expected_duration / s.dt;
         fmt::print("# about {:.0f} steps over {:.3g} s, about {:.0f} s of run time on {}\n", steps,
                    b.experiment.expected_duration, steps * seconds_per_step(b, s.dt), to_string(b.model.device));

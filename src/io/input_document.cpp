@@ -246,10 +246,6 @@ std::string contents(const std::string& file)
         text.append(block.data(), static_cast<std::size_t>(in.gcount()));
     }
     if (in.bad()) throw InputError("", "cannot be read");
-    if (text.size() > max_file_size) {
-        throw InputError("", fmt::format("is larger than {} MiB; not an input file", max_file_size >> 20));
-    }
-    if (text.find_first_not_of(" \t\r\n") == text.npos) throw InputError("", "is empty");
     return text;
 }
 
@@ -435,7 +431,15 @@ const char* type_name(Node::Type type)
 
 Node read_document(const std::string& file, std::map<std::string, SourcePlace>& places)
 {
-    const std::string text = contents(file);
+    return parse_document(contents(file), file, places);
+}
+
+Node parse_document(const std::string& text, const std::string& file, std::map<std::string, SourcePlace>& places)
+{
+    if (text.size() > max_file_size) {
+        throw InputError("", fmt::format("is larger than {} MiB; not an input file", max_file_size >> 20));
+    }
+    if (text.find_first_not_of(" \t\r\n") == text.npos) throw InputError("", "is empty");
     int line = 0;
     try {
         return parsed(text, file, line);
