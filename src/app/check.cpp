@@ -2,6 +2,7 @@
 #include "app/prepare.h"
 #include "app/summary.h"
 #include "experiment/calibration.h"
+#include "experiment/derived.h"
 #include "gpu/device.h"
 #include "io/input.h"
 #include "motion/step.h"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 
 namespace grainfrac {
 
@@ -77,10 +79,9 @@ int check_command(const Options& o)
     fmt::print("# mean grain spacing {:.4g} m, mass {:.6g} kg\n", b.model.nominal_length,
                total_momentum(b.model, b.state).mass);
     fmt::print("# time step {:.4g} s; stability limit {:.4g} s, set by {}\n", s.dt, s.critical, s.limiter);
-    if (b.experiment.quasi_static_speed > 0.0) {
-        fmt::print("# wave speed {:.4g} m/s; quasi-static platen speed <= {:.3g} m/s\n", b.experiment.wave_speed,
-                   b.experiment.quasi_static_speed);
-    }
+    for (const std::string& line : derived_lines(c, b)) fmt::print("# {}\n", line);
+    if (b.experiment.quasi_static_speed > 0.0)
+        fmt::print("# quasi-static speed of each wall <= {:.3g} m/s\n", b.experiment.quasi_static_speed);
     fmt::print("# memory {:.0f} MB\n", static_cast<double>(peak_memory()) / 1e6);
     const bool takes_steps = !b.experiment.pull_out || !b.experiment.pull_out->quasi_static;
     if (takes_steps && b.experiment.expected_duration > 0.0) {
@@ -88,6 +89,8 @@ int check_command(const Options& o)
         fmt::print("# about {:.0f} steps over {:.3g} s, about {:.0f} s of run time on {}\n", steps,
                    b.experiment.expected_duration, steps * seconds_per_step(b, s.dt), to_string(b.model.device));
     }
+    std::fflush(stdout);
+    for (const std::string& warning : plausibility_warnings(c, b, s)) fmt::print(stderr, "warning: {}\n", warning);
     return exit_code::done;
 }
 

@@ -42,6 +42,15 @@ struct RawPoint {
 using Edge = std::pair<int, int>;
 using Loop = std::vector<int>;
 
+Vec3 low_corner(const std::vector<Vec3>& points)
+{
+    Vec3 low = points.front();
+    for (const Vec3& p : points) {
+        for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]);
+    }
+    return low;
+}
+
 double size_of(const std::vector<Vec3>& points)
 {
     Vec3 low = points.front(), high = low;
@@ -57,11 +66,12 @@ double size_of(const std::vector<Vec3>& points)
 /// Index of the first point within `tolerance` of each, by a grid of that width.
 std::vector<int> welded(const std::vector<Vec3>& points, double tolerance, std::vector<Vec3>& kept)
 {
+    const Vec3 origin = low_corner(points);  // cells are counted from here, so that their numbers stay small
     std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::vector<int>> grid;
     std::vector<int> index;
     for (const Vec3& p : points) {
         std::int64_t cell[3];
-        for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(p[k] / tolerance));
+        for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor((p[k] - origin[k]) / tolerance));
         int found = -1;
         for (int n = 0; n < 27 && found < 0; ++n) {
             const auto near = grid.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
