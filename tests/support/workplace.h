@@ -27,6 +27,13 @@ inline std::string text_of(const std::filesystem::path& file)
     return s.str();
 }
 
+/// The one that was built with the tests, or another build of it.
+inline std::string program_under_test()
+{
+    const char* other = std::getenv("GF_OTHER_PROGRAM");
+    return other ? other : GF_PROGRAM;
+}
+
 /// A folder of its own for each case, removed at the end.
 struct Workplace {
     std::filesystem::path folder;
@@ -37,10 +44,11 @@ struct Workplace {
         folder = name;
     }
     ~Workplace() { std::filesystem::remove_all(folder); }
-    Outcome run(const std::string& arguments) const
+    /// `under`: a command that runs the program, such as timeout.
+    Outcome run(const std::string& arguments, const std::string& under = "") const
     {
-        const std::string command =
-            "cd '" + folder.string() + "' && '" GF_PROGRAM "' " + arguments + " > out.txt 2> err.txt < /dev/null";
+        const std::string command = "cd '" + folder.string() + "' && " + under + " '" + program_under_test() + "' " +
+                                    arguments + " > out.txt 2> err.txt < /dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / "out.txt"),
                 text_of(folder / "err.txt")};
