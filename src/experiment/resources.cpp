@@ -36,13 +36,15 @@ double chain_length(const FibreSpec& f)
     return length;
 }
 
-/// A lattice of prisms is made in the box around its region.
+/// Cells of a lattice of prisms along z.
 double prisms(const PartSpec& p)
 {
     const SphereRegion region(p.region);
-    const double across = 2.0 * region.half.x / (std::numbers::sqrt3 * p.side),
-                 up = 2.0 * region.half.y / (1.5 * p.side), layers = 2.0 * region.half.z / p.thickness;
-    return (across + 1.0) * (up + 1.0) * (layers + 1.0);
+    const bool upright = region.shape == SphereRegion::Shape::cylinder && region.axis == 2;
+    const double area =
+        upright ? std::numbers::pi * region.radius * region.radius : 4.0 * region.half.x * region.half.y;
+    const double hexagon = 1.5 * std::numbers::sqrt3 * p.side * p.side;
+    return (area / hexagon + 1.0) * std::max(std::round(2.0 * region.half.z / p.thickness), 1.0);
 }
 
 /// Of a file with lines "NAME NUMBER ..."; 0 if there is none of this name.

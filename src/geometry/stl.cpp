@@ -112,22 +112,32 @@ public:
     std::vector<std::vector<Vec3>> facets(std::vector<Loop> loops) const
     {
         if (const Loop whole = border(loops); is_facet(whole)) return {corners(whole)};
+        std::map<Edge, int> owner;  // of each directed edge; only loops that share one can be merged
+        const auto enter = [&](int i) {
+            const Loop& loop = loops[static_cast<std::size_t>(i)];
+            for (std::size_t k = 0; k < loop.size(); ++k) owner[{loop[k], loop[(k + 1) % loop.size()]}] = i;
+        };
+        for (int i = 0; i < static_cast<int>(loops.size()); ++i) enter(i);
         bool merged = true;
         while (merged) {
             merged = false;
-            for (std::size_t i = 0; i < loops.size(); ++i) {
-                for (std::size_t j = i + 1; j < loops.size();) {
-                    const Loop both = border({loops[i], loops[j]});
-                    if (!is_facet(both)) {
-                        ++j;
-                        continue;
-                    }
-                    loops[i] = both;
-                    loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(j));
+            for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
+                Loop& loop = loops[static_cast<std::size_t>(i)];
+                for (int j = neighbour(loop, i + 1, owner); j >= 0; j = neighbour(loop, j + 1, owner)) {
+                    Loop& other = loops[static_cast<std::size_t>(j)];
+                    const Loop both = border({loop, other});
+                    if (!is_facet(both)) continue;
+                    for (std::size_t k = 0; k < other.size(); ++k)
+                        owner.erase({other[k], other[(k + 1) % other.size()]});
+                    for (std::size_t k = 0; k < loop.size(); ++k) owner.erase({loop[k], loop[(k + 1) % loop.size()]});
+                    loop = both;
+                    other.clear();
+                    enter(i);
                     merged = true;
                 }
             }
         }
+        std::erase_if(loops, [](const Loop& loop) { return loop.empty(); });
         std::vector<std::vector<Vec3>> polygons;
         for (const Loop& loop : loops) polygons.push_back(corners(loop));
         return polygons;
@@ -135,6 +145,18 @@ public:
 
 private:
     const Vec3& at(int v) const { return vertices_[static_cast<std::size_t>(v)]; }
+
+    /// The first loop from `from` on that shares an edge with this one; -1: none.
+    static int neighbour(const Loop& loop, int from, const std::map<Edge, int>& owner)
+    {
+        int first = -1;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const auto found = owner.find({loop[(k + 1) % loop.size()], loop[k]});
+            if (found != owner.end() && found->second >= from && (first < 0 || found->second < first))
+                first = found->second;
+        }
+        return first;
+    }
 
     /// Outline of several loops; empty unless it is a single closed line that passes every vertex once.
     static Loop border(const std::vector<Loop>& loops)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `grainfrac new` and `schema` as their user meets them.
+#include "experiment/resources.h"
 #include "io/input.h"
 #include "support/workplace.h"
 
@@ -57,4 +58,15 @@ TEST_CASE("schema prints the schema")
     const Outcome o = w.run("schema");
     CHECK(o.code == 0);
     CHECK(o.out == grainfrac::input_json_schema());
+}
+
+TEST_CASE("a model that memory does not hold ends with exit code 1 before it is made")
+{
+    if (grainfrac::available_memory() > 100e9) return;  // it does
+    const Workplace w;
+    REQUIRE(w.run("new brazilian").code == 0);
+    const Outcome o = w.run("check brazilian.toml --set parts[0].region.diameter='\"3.5 m\"'");
+    INFO(o.err);
+    CHECK(o.code == 1);
+    CHECK(o.err.find("GB of memory") != std::string::npos);
 }
