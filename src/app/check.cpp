@@ -3,6 +3,7 @@
 #include "app/summary.h"
 #include "experiment/calibration.h"
 #include "experiment/derived.h"
+#include "experiment/resources.h"
 #include "gpu/device.h"
 #include "io/input.h"
 #include "motion/step.h"
@@ -16,6 +17,8 @@ namespace grainfrac {
 
 namespace {
 
+/// A model of more takes more than a moment to build.
+constexpr double many_bodies = 5000.0;
 /// Steps timed for the estimate of the run time.
 constexpr int timed_steps = 50;
 
@@ -66,6 +69,9 @@ int check_command(const Options& o)
     const Case c = load_case(o);
     if (!c.calibration.empty() && c.stages.empty() && c.places.count("test") == 0)
         return check_calibration(c, parse_device(o.device));
+    double bodies = 0.0;
+    for (const PartSpec& p : c.parts) bodies += expected_bodies(p);
+    if (bodies > many_bodies && !o.quiet) fmt::print(stderr, "building about {:.2g} grains and spheres\n", bodies);
     Built b = build_case(c, parse_device(o.device));
     start_check(c, b);
     const ChosenStep s = choose_time_step(c, b.model, b.state);
