@@ -62,6 +62,20 @@ int check_calibration(const Case& c, Device device)
     return exit_code::done;
 }
 
+/// What takes more than a moment to build is said before.
+void announce(const Case& c, const Options& o)
+{
+    try {
+        check_resources(c);
+    } catch (const InputError& e) {
+        report(e, c);
+        throw ReportedInputError{};
+    }
+    double bodies = 0.0;
+    for (const PartSpec& p : c.parts) bodies += expected_bodies(p);
+    if (bodies > many_bodies && !o.quiet) fmt::print(stderr, "building about {:.2g} grains and spheres\n", bodies);
+}
+
 }  // namespace
 
 int check_command(const Options& o)
@@ -69,9 +83,7 @@ int check_command(const Options& o)
     const Case c = load_case(o);
     if (!c.calibration.empty() && c.stages.empty() && c.places.count("test") == 0)
         return check_calibration(c, parse_device(o.device));
-    double bodies = 0.0;
-    for (const PartSpec& p : c.parts) bodies += expected_bodies(p);
-    if (bodies > many_bodies && !o.quiet) fmt::print(stderr, "building about {:.2g} grains and spheres\n", bodies);
+    announce(c, o);
     Built b = build_case(c, parse_device(o.device));
     start_check(c, b);
     const ChosenStep s = choose_time_step(c, b.model, b.state);

@@ -119,12 +119,12 @@ local_damping = 0.3
 )")},
         {"notched_beam", "toughness from the peak load of a beam with a notch",
          of_grains("Notched beam",
-                   prisms("beam", "0.3 mm", "1 mm", R"(shape = "beam", size = ["20 mm", "5 mm", "1 mm"])"),
+                   prisms("beam", "0.3 mm", "1 mm", R"(shape = "beam", size = ["12 mm", "3.2 mm", "1 mm"])"),
                    R"(kind = "notched_beam"
-platen_speed = "50 mm/s"
-outer_span = "16 mm"
+platen_speed = "20 mm/s"
+outer_span = "10 mm"
 inner_span = 0
-notch_depth = "1.5 mm"
+notch_depth = "0.9 mm"
 wall_friction = 0.03
 stop = { load_drop = 0.5, strain = 0.01 }
 
@@ -162,9 +162,9 @@ fracture_energy_II = "10 J/m^2"
 )" + contacts + R"(
 [test]
 kind = "dcb"
-platen_speed = "50 mm/s"
+platen_speed = "30 mm/s"
 crack_length = "2 mm"
-ramp = "20 us"
+ramp = "40 us"
 stop = { strain = 0.002 }
 
 [control]
@@ -228,9 +228,9 @@ failure = "unbreakable"
 [[bonds]]
 between = ["fibre", "matrix"]
 law = "interface"
-shear_stiffness = "1e12 Pa/m"
-yield_slip = "1 um"
-failure_slip = "3 um"
+shear_stiffness = "2e11 Pa/m"
+yield_slip = "5 um"
+failure_slip = "15 um"
 
 [test]
 kind = "pull_out"
