@@ -40,7 +40,8 @@ std::vector<int> corners_from(const json& j, std::size_t vertices)
     std::vector<int> corners;
     for (const json& c : j) {
         if (!c.is_number_integer() || c.get<double>() < 0.0 || c.get<double>() >= static_cast<double>(vertices))
-            throw std::runtime_error(fmt::format("faces: numbers of vertices expected, 0 to {}", vertices - 1));
+            throw std::runtime_error(
+                fmt::format("faces: numbers of vertices expected, 0 to {}", static_cast<std::int64_t>(vertices) - 1));
         corners.push_back(c.get<int>());
     }
     return corners;

@@ -162,10 +162,10 @@ fracture_energy_II = "10 J/m^2"
 )" + contacts + R"(
 [test]
 kind = "dcb"
-platen_speed = "30 mm/s"
+platen_speed = "40 mm/s"
 crack_length = "2 mm"
 ramp = "40 us"
-stop = { strain = 0.002 }
+stop = { strain = 0.003 }
 
 [control]
 local_damping = 0.3
