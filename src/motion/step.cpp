@@ -43,7 +43,7 @@ void step(const Model& model, State& state, double dt, bool want_stress)
     bond_forces(model, state, dt);  // interfaces and parallel bonds; marks what breaks
     gather_forces(model, state);    // onto the bodies, in a fixed order
     spread_support_forces(model, state);
-    kick(model, state, 0.5 * dt);  // velocities to the end of the step
+    kick(model, state, 0.5 * dt, dt);  // velocities to the end of the step; drag
 }
 
 void start(const Model& model, State& state)
