@@ -114,6 +114,7 @@ int run_command(const Options& o)
         "threads",
         GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
         built.state.parallels.size(), built.state.sphere_bonds.size(), to_string(device), threads());
+    for (const std::string& warning : built.experiment.warnings) spdlog::warn("{}", warning);
     record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 
     watch_signals();

@@ -9,6 +9,7 @@
 #include "experiment/dcb.h"
 #include "experiment/drop.h"
 #include "experiment/experiment.h"
+#include "experiment/fibre_interface.h"
 #include "experiment/grips.h"
 #include "experiment/laws.h"
 #include "experiment/pre_cut.h"
@@ -213,8 +214,8 @@ Built build(const Case& c, Device device)
     bond_shared_faces(model, state, grains, c.simulation.seed, rule_of,
                       fibre_patches(c, model, state, spheres, first_sphere, table));
     pre_cut.finish(state);
-    finish_fibre_interfaces(c, state, spheres, first_sphere, table);
     bond_spheres(c, model, state, spheres, first_sphere, table);
+    finish_fibre_interfaces(c, model, state, table);
     check_bonds_exist(c, model, state, table);
     check_snap_back(model, state, table);
 

@@ -29,6 +29,7 @@ struct Neighbour {
     double angle = 0.0;     // about it [rad]
     double share = 0.0;     // of the circle [rad]
     double width = 0.0;     // of the ring that it may count to [m]
+    double size = 0.0;      // of a sphere; grains have nodes beside each of their faces [m]
 };
 
 Vec3 tangent_at(const State& state, const std::vector<int>& nodes, std::size_t k)
@@ -75,7 +76,8 @@ public:
                 nearest = k;
             }
         }
-        add(nearest, body, x, ring_width * 2.0 * model_.shapes.radius[state_.bodies.shape[body]], true);
+        const double size = 2.0 * model_.shapes.radius[state_.bodies.shape[body]];
+        add(nearest, body, x, ring_width * size, size);
     }
 
     void add_grain(int body)
@@ -93,40 +95,70 @@ public:
             const ClosestPoints near = closest_points(point, core, state_.bodies.position[body] - node);
             if (near.distance <= 0.0) continue;
             const Vec3 surface = near.b - (shapes.radius[s] / near.distance) * (near.b - near.a);
-            add(k, body, surface, face_ring_width * near.distance, false);
+            add(k, body, surface, face_ring_width * near.distance, 0.0);
         }
     }
 
     std::vector<SharedFace> patches()
     {
-        std::vector<SharedFace> faces;
-        for (std::size_t k = 0; k < around_.size(); ++k) {
-            std::vector<Neighbour>& ring = around_[k];
-            if (ring.empty()) continue;
+        for (std::vector<Neighbour>& ring : around_) {
             double least = 1e300;
             for (const Neighbour& n : ring) least = std::min(least, n.distance);
             std::erase_if(ring, [&](const Neighbour& n) { return n.distance > least + n.width; });
             share_circle(ring);
-            for (const Neighbour& n : ring) {
+        }
+        const std::vector<double> length = covered();
+        std::vector<SharedFace> faces;
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            for (const Neighbour& n : around_[k]) {
                 faces.push_back(patch(chain_.nodes[k], n.body, n.place, n.outward, tangent_at(state_, chain_.nodes, k),
-                                      chain_.piece, n.share * chain_.radius));
+                                      length[k], n.share * chain_.radius));
             }
         }
         return faces;
     }
 
 private:
-    void add(std::size_t k, int body, const Vec3& place, double width, bool is_sphere)
+    void add(std::size_t k, int body, const Vec3& place, double width, double size)
     {
         const Vec3 t = tangent_at(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
-        if (std::fabs(dot(from, t)) > 0.5 * chain_.piece * (1.0 + 1e-9)) return;
+        const double along = dot(from, t), slack = 1e-9 * chain_.whole;
+        if (along < -chain_.reach_back(k) - slack || along > chain_.reach_on(k) + slack) return;
         const Vec3 across = tangential(from, t);
         const double r = norm(across);
-        const double farthest = chain_.radius + (is_sphere ? width / ring_width : chain_.radius);
+        const double farthest = chain_.radius + (size > 0.0 ? size : chain_.radius);
         if (r == 0.0 || r > farthest) return;
         const Vec3 e1 = any_perpendicular(t), e2 = cross(t, e1);
         around_[k].push_back(
-            {body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0, width});
+            {body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0, width, size});
+    }
+
+    /// Length of fibre of each node's patches.
+    std::vector<double> covered() const
+    {
+        std::vector<std::size_t> tied;  // nodes that have some
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            if (!around_[k].empty()) tied.push_back(k);
+        }
+        std::vector<double> length(around_.size(), 0.0);
+        // half the gap to the next one; 0 where it is too wide: the matrix has a hole there
+        const auto half_gap = [&](std::size_t i, std::size_t j) {
+            const std::size_t k = tied[i], l = tied[j];
+            const double gap = chain_.way[l] - chain_.way[k], pieces = chain_.reach_on(k) + chain_.reach_back(l),
+                         size = std::max(around_[k].front().size, around_[l].front().size);
+            return gap <= (pieces + size) * (1.0 + 1e-9) ? 0.5 * gap : 0.0;
+        };
+        for (std::size_t i = 0; i < tied.size(); ++i) {
+            const std::size_t k = tied[i];
+            const double before = i > 0 ? half_gap(i - 1, i) : 0.0,
+                         after = i + 1 < tied.size() ? half_gap(i, i + 1) : 0.0;
+            const auto to_end = [](double other, double piece, double left) {
+                return std::min(other > 0.0 ? other : piece, left);
+            };
+            length[k] = (before > 0.0 ? before : to_end(after, chain_.reach_back(k), chain_.way[k])) +
+                        (after > 0.0 ? after : to_end(before, chain_.reach_on(k), chain_.whole - chain_.way[k]));
+        }
+        return length;
     }
 
     /// Half the way to the next on either side.
@@ -172,6 +204,7 @@ std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& 
     for (const auto& [inner, outer] : pairs) {
         const Vec3 x = state.bodies.position[inner], y = state.bodies.position[outer], branch = normalized(y - x);
         if (fibre.same_level && std::fabs(dot(branch, fibre.axis)) > side_by_side) continue;
+        if (norm(from_axis(outer)) <= fibre.radius) continue;  // before the fibre's end, not beside it
         const Vec3 middle = 0.5 * (x + y);
         const Vec3 radial = normalized(from_axis(inner) + from_axis(outer));
         faces.push_back(patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));

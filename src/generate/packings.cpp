@@ -45,7 +45,8 @@ SphereSpec prototype(const Case& c, std::size_t part)
 }
 
 /// A straight fibre along the c axis of the lattice that it lies in, without a spacing of its own, has a node at each
-/// of its layers: bonds of its surface then measure slip and nothing else. Empty where that is not so.
+/// of its layers: bonds of its surface then measure slip and nothing else. It goes on with the same spacing where it is
+/// outside. Empty where that is not so.
 FibreNodes nodes_of_layers(const PartSpec& p, const PartSpec& host_part, const Spheres& host)
 {
     const FibreSpec& f = p.fibre;
@@ -63,12 +64,20 @@ FibreNodes nodes_of_layers(const PartSpec& p, const PartSpec& host_part, const S
         layers.end());
     if (way[axis] < 0.0) std::reverse(layers.begin(), layers.end());
     FibreNodes nodes;
+    const double length = norm(way);
+    std::vector<double> places;  // from the begin of the fibre [m]
     for (const double z : layers) {
-        const double share = (z - f.from[axis]) / way[axis];
-        if (share >= -round_off && share <= 1.0 + round_off) nodes.position.push_back(f.from + share * way);
+        const double s = (z - f.from[axis]) * length / way[axis];
+        if (s >= -round_off && s <= length + round_off) places.push_back(s);
     }
-    if (nodes.position.size() < 2) return {};
-    nodes.piece = norm(nodes.position[1] - nodes.position[0]);
+    if (places.size() < 2) return {};
+    nodes.piece = places[1] - places[0];
+    check_count("to", length / nodes.piece);
+    while (places.front() - nodes.piece >= -round_off) places.insert(places.begin(), places.front() - nodes.piece);
+    while (places.back() + nodes.piece <= length + round_off) places.push_back(places.back() + nodes.piece);
+    for (const double s : places) nodes.position.push_back(f.from + (s / length) * way);
+    nodes.before = std::clamp(places.front(), 0.0, 0.5 * nodes.piece);
+    nodes.after = std::clamp(length - places.back(), 0.0, 0.5 * nodes.piece);
     return nodes;
 }
 
@@ -77,12 +86,12 @@ Spheres chain_spheres(const PartSpec& p, const SphereSpec& model, const FibreNod
 {
     SphereSpec s = model;
     s.section_radius = p.fibre.radius.value_or(0.0);
-    s.piece = p.fibre.radius ? nodes.piece : 0.0;
     Spheres all;
     for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
         s.chain = chains++;
-        for (const Vec3& x : nodes.position) {
-            s.position = copy == 0 ? x : x + p.copies[copy - 1];
+        for (std::size_t k = 0; k < nodes.position.size(); ++k) {
+            s.position = nodes.position[k] + (copy == 0 ? Vec3{} : p.copies[copy - 1]);
+            s.piece = nodes.length_of(k);
             all.push_back(s);
         }
     }
@@ -245,19 +254,19 @@ void make_room_for_fibres(const Case& c, std::vector<GrainSpec>& grains)
         if (c.parts[host].kind != "grains") continue;
         const std::vector<Vec3> line = fibre_polyline(p.fibre);
         const double radius = p.fibre.radius.value_or(0.5 * p.diameter);
-        const std::size_t before = grains.size();
         for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
+            const std::size_t before = grains.size();
             const Vec3 shift = copy == 0 ? Vec3{} : p.copies[copy - 1];
             std::erase_if(grains, [&](const GrainSpec& g) {
                 return g.group == static_cast<std::int32_t>(host) &&
                        distance_to_polyline(g.site - shift, line) < radius;
             });
-        }
-        if (grains.size() == before) {
-            throw InputError(fmt::format("parts[{}].inside", k),
-                             fmt::format("no grain of \"{}\" has its centre in the fibre; the fibre must run where "
+            if (grains.size() < before) continue;
+            const std::string key = copy == 0 ? std::string("inside") : fmt::format("copies[{}]", copy - 1);
+            throw InputError(fmt::format("parts[{}].{}", k, key),
+                             fmt::format("no grain of \"{}\" has its centre in {} fibre; the fibre must run where "
                                          "grains can make room for it",
-                                         p.inside));
+                                         p.inside, copy == 0 ? "the" : "this"));
         }
     }
 }

@@ -467,6 +467,11 @@ void describe(V& v, BondSpec& s)
        .range = not_negative,
        .used = fibre,
        .meaning = "p_0 of the matrix on the fibre; adds residual_friction times it to the friction"});
+    v("contraction", s.contraction,
+      {.range = not_negative,
+       .used = {of_fibre && s.radial_pressure > 0.0, "radial_pressure"},
+       .unset = "chain: nu_f E_m/((1 - nu_f) E_m + (1 + nu_m) E_f), a wide matrix; taken: 0",
+       .meaning = "k_p: the pressure falls by this times the axial stress of the fibre, p = p_0 - k_p sigma_f >= 0"});
     v("frame", s.frame,
       {.words = "surface | branch",
        .used = fibre,

@@ -153,6 +153,7 @@ struct BondSpec {
     std::optional<double> failure_slip;  ///< delta_1 [m]
     double residual_shear = 0.0;         ///< tau_r of the broken interface [Pa]
     double radial_pressure = 0.0;        ///< p_0 of the matrix on the fibre [Pa]
+    std::optional<double> contraction;   ///< k_p: loss of p per axial stress of the fibre [-]; auto: of a wide matrix
     std::string frame = "surface";       ///< surface: of the fibre's cylinder | branch: between the centres
     std::string reach = "level";         ///< lattice fibre: level: spheres side by side | all: all that touch
     std::string made_in;                 ///< stage of kind "bond" that makes them; "": there from the start

@@ -49,8 +49,8 @@ Case pull_out_case(double length)
     fibre.generator = "chain";
     fibre.diameter = 0.8;
     fibre.inside = "matrix";
-    fibre.fibre.from = {0.0, 0.0, -0.5 * length - 0.5};
-    fibre.fibre.to = {0.0, 0.0, 0.5 * length + 0.5};
+    fibre.fibre.from = {0.0, 0.0, -0.5 * length - 0.1};
+    fibre.fibre.to = {0.0, 0.0, 0.5 * length + 0.1};
     fibre.fibre.radius = 1.0;
     c.parts = {matrix, fibre};
     BondSpec solid, line, interface;
