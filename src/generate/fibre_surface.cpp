@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generate/fibre_surface.h"
 
-#include "geometry/gjk.h"
+#include "generate/fibre_in_grains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,6 @@ namespace {
 /// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one: with more, the fibre
 /// would be tied to spheres that lie behind others.
 constexpr double ring_width = 0.35;
-/// The same for grains, over their distance from the axis: faces of one hole are rarely at one distance.
-constexpr double face_ring_width = 0.25;
 /// Centres whose line is tilted less than this against the plane across the fibre are side by side.
 constexpr double side_by_side = 1e-6;
 
@@ -32,12 +30,6 @@ struct Neighbour {
     double size = 0.0;      // of a sphere; grains have nodes beside each of their faces [m]
 };
 
-Vec3 tangent_at(const State& state, const std::vector<int>& nodes, std::size_t k)
-{
-    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
-    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
-}
-
 /// Rectangle about `center`, its normal from a to b.
 std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& along, double length, double width)
 {
@@ -45,8 +37,16 @@ std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& 
     return {center - u - v, center + u - v, center + u + v, center - u + v};
 }
 
-SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
-                 double width)
+}  // namespace
+
+Vec3 fibre_tangent(const State& state, const std::vector<int>& nodes, std::size_t k)
+{
+    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
+    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
+}
+
+SharedFace fibre_patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
+                       double width)
 {
     SharedFace f;
     f.a = std::min(fibre, matrix);
@@ -56,6 +56,8 @@ SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward,
     f.polygon = rectangle(center, f.normal, square, length, width);
     return f;
 }
+
+namespace {
 
 class Ring {
 public:
@@ -80,25 +82,6 @@ public:
         add(nearest, body, x, ring_width * size, size);
     }
 
-    void add_grain(int body)
-    {
-        const ShapesView shapes = view(model_.shapes, Device::cpu);
-        const std::int32_t s = state_.bodies.shape[body];
-        const PlacedCore core{shapes.vertices.data + shapes.vertex_begin[s],
-                              shapes.vertex_begin[s + 1] - shapes.vertex_begin[s], state_.bodies.position[body],
-                              state_.bodies.orientation[body]};
-        const Vec3 origin{};
-        for (std::size_t k = 0; k < chain_.nodes.size(); ++k) {
-            const Vec3 node = state_.bodies.position[chain_.nodes[k]];
-            if (norm(state_.bodies.position[body] - node) > shapes.bounding_radius[s] + 4.0 * chain_.radius) continue;
-            const PlacedCore point{&origin, 1, node, Quat{}};
-            const ClosestPoints near = closest_points(point, core, state_.bodies.position[body] - node);
-            if (near.distance <= 0.0) continue;
-            const Vec3 surface = near.b - (shapes.radius[s] / near.distance) * (near.b - near.a);
-            add(k, body, surface, face_ring_width * near.distance, 0.0);
-        }
-    }
-
     std::vector<SharedFace> patches()
     {
         for (std::vector<Neighbour>& ring : around_) {
@@ -111,8 +94,9 @@ public:
         std::vector<SharedFace> faces;
         for (std::size_t k = 0; k < around_.size(); ++k) {
             for (const Neighbour& n : around_[k]) {
-                faces.push_back(patch(chain_.nodes[k], n.body, n.place, n.outward, tangent_at(state_, chain_.nodes, k),
-                                      length[k], n.share * chain_.radius));
+                faces.push_back(fibre_patch(chain_.nodes[k], n.body, n.place, n.outward,
+                                            fibre_tangent(state_, chain_.nodes, k), length[k],
+                                            n.share * chain_.radius));
             }
         }
         return faces;
@@ -121,7 +105,7 @@ public:
 private:
     void add(std::size_t k, int body, const Vec3& place, double width, double size)
     {
-        const Vec3 t = tangent_at(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
+        const Vec3 t = fibre_tangent(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
         const double along = dot(from, t), slack = 1e-9 * chain_.whole;
         if (along < -chain_.reach_back(k) - slack || along > chain_.reach_on(k) + slack) return;
         const Vec3 across = tangential(from, t);
@@ -186,14 +170,18 @@ std::vector<SharedFace> chain_patches(const Model& model, const State& state, co
                                       const std::vector<char>& is_matrix)
 {
     Ring ring(model, state, chain);
+    std::vector<int> grains;
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (is_matrix[static_cast<std::size_t>(i)] == 0) continue;
         if (is_sphere(model, state.bodies, i))
             ring.add_sphere(i);
         else
-            ring.add_grain(i);
+            grains.push_back(i);
     }
-    return ring.patches();
+    std::vector<SharedFace> faces = ring.patches();
+    const std::vector<SharedFace> of_grains = grain_patches(model, state, chain, grains);
+    faces.insert(faces.end(), of_grains.begin(), of_grains.end());
+    return faces;
 }
 
 std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& fibre,
@@ -207,7 +195,7 @@ std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& 
         if (norm(from_axis(outer)) <= fibre.radius) continue;  // before the fibre's end, not beside it
         const Vec3 middle = 0.5 * (x + y);
         const Vec3 radial = normalized(from_axis(inner) + from_axis(outer));
-        faces.push_back(patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
+        faces.push_back(fibre_patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
     }
     const double area = 2.0 * std::numbers::pi * fibre.radius * fibre.length / static_cast<double>(faces.size());
     for (SharedFace& f : faces) {
