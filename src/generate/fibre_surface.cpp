@@ -30,6 +30,7 @@ struct Neighbour {
     double share = 0.0;     // of the circle [rad]
     double width = 0.0;     // of the ring that it may count to [m]
     double size = 0.0;      // of a sphere; grains have nodes beside each of their faces [m]
+    double along = 0.0;     // the fibre, from the node [m]
 };
 
 Vec3 tangent_at(const State& state, const std::vector<int>& nodes, std::size_t k)
@@ -129,36 +130,53 @@ private:
         const double farthest = chain_.radius + (size > 0.0 ? size : chain_.radius);
         if (r == 0.0 || r > farthest) return;
         const Vec3 e1 = any_perpendicular(t), e2 = cross(t, e1);
-        around_[k].push_back(
-            {body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0, width, size});
+        around_[k].push_back({body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0,
+                              width, size, along});
     }
 
-    /// Length of fibre of each node's patches.
+    /// Length of fibre of each node's patches: half-way to the next node that has some; beyond the last one as far as
+    /// its spheres reach, a layer half its distance to the next.
     std::vector<double> covered() const
     {
         std::vector<std::size_t> tied;  // nodes that have some
         for (std::size_t k = 0; k < around_.size(); ++k) {
             if (!around_[k].empty()) tied.push_back(k);
         }
+        std::vector<double> gap(tied.size(), 0.0);  // to the next one; 0: too far, the matrix has a hole there
+        double sum = 0.0;
+        int layers = 0;
+        for (std::size_t i = 0; i + 1 < tied.size(); ++i) {
+            const std::size_t k = tied[i], l = tied[i + 1];
+            const double size = std::max(around_[k].front().size, around_[l].front().size);
+            const double way = chain_.way[l] - chain_.way[k];
+            if (way > (chain_.reach_on(k) + chain_.reach_back(l) + size) * (1.0 + 1e-9)) continue;
+            gap[i] = way;
+            sum += way + middle(around_[l]) - middle(around_[k]);
+            ++layers;
+        }
         std::vector<double> length(around_.size(), 0.0);
-        // half the gap to the next one; 0 where it is too wide: the matrix has a hole there
-        const auto half_gap = [&](std::size_t i, std::size_t j) {
-            const std::size_t k = tied[i], l = tied[j];
-            const double gap = chain_.way[l] - chain_.way[k], pieces = chain_.reach_on(k) + chain_.reach_back(l),
-                         size = std::max(around_[k].front().size, around_[l].front().size);
-            return gap <= (pieces + size) * (1.0 + 1e-9) ? 0.5 * gap : 0.0;
-        };
         for (std::size_t i = 0; i < tied.size(); ++i) {
             const std::size_t k = tied[i];
-            const double before = i > 0 ? half_gap(i - 1, i) : 0.0,
-                         after = i + 1 < tied.size() ? half_gap(i, i + 1) : 0.0;
-            const auto to_end = [](double other, double piece, double left) {
-                return std::min(other > 0.0 ? other : piece, left);
+            const std::vector<Neighbour>& ring = around_[k];
+            const auto beyond = [&](double place, double own, double left) {
+                if (ring.front().size == 0.0) return std::min(own, left);
+                const double reach = 0.5 * ring.front().size;
+                return std::clamp(place + (layers > 0 ? std::min(reach, 0.5 * sum / layers) : reach), 0.0, left);
             };
-            length[k] = (before > 0.0 ? before : to_end(after, chain_.reach_back(k), chain_.way[k])) +
-                        (after > 0.0 ? after : to_end(before, chain_.reach_on(k), chain_.whole - chain_.way[k]));
+            const bool goes_back = i > 0 && gap[i - 1] > 0.0, goes_on = gap[i] > 0.0;
+            length[k] =
+                (goes_back ? 0.5 * gap[i - 1] : beyond(-middle(ring), chain_.reach_back(k), chain_.way[k])) +
+                (goes_on ? 0.5 * gap[i] : beyond(middle(ring), chain_.reach_on(k), chain_.whole - chain_.way[k]));
         }
         return length;
+    }
+
+    /// Place of a ring along the fibre, from its node [m].
+    static double middle(const std::vector<Neighbour>& ring)
+    {
+        double sum = 0.0;
+        for (const Neighbour& n : ring) sum += n.along;
+        return sum / static_cast<double>(ring.size());
     }
 
     /// Half the way to the next on either side.

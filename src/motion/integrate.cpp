@@ -154,9 +154,9 @@ void kick(const Model& model, State& state, double dt, double drag_time)
     const double kept = (1.0 - half_drag) / (1.0 + half_drag);
     parallel_for(
         d, b.size(),
-        Kick{dt, model.local_damping, kept, model.gravity, b.force.read(d), b.torque.read(d),
-             b.inverse_inertia.read(d), b.mass.read(d), b.inverse_mass.read(d), b.held.read(d), b.orientation.read(d),
-             b.velocity.write(d), b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
+        Kick{dt, model.local_damping, kept, model.gravity, b.force.read(d), b.torque.read(d), b.inverse_inertia.read(d),
+             b.mass.read(d), b.inverse_mass.read(d), b.held.read(d), b.orientation.read(d), b.velocity.write(d),
+             b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
              b.damping_work.write(d), b.gravity_work.write(d)});
 }
 
