@@ -12,9 +12,6 @@ namespace {
 
 /// Levels nearer than this share of a fibre's piece are one.
 constexpr double same_level = 0.25;
-/// Below it the pull of the grip, up to its peak, is what the support bears: the peak is that of slow pulling within
-/// about as much (docs/theory/pull_out.md, Measured).
-constexpr double quasi_static_imbalance = 0.01;
 
 /// Of the fibre against the matrix, along the fibre; mean of the patch [m].
 double slip_of(const PullOut& p, const State& state, int i, int fibre)
@@ -188,7 +185,6 @@ std::vector<NamedResult> pull_out_results(const Experiment& e, const std::vector
             most = std::max(most, std::fabs(s->end_stress - s->support_stress) / peak->end_stress);
         r.push_back({"inertia_stress_Pa", e.pull_out->young_modulus * e.speed_of_each_wall / e.wave_speed});
         r.push_back({"largest_imbalance_to_peak", most});
-        r.push_back({"quasi_static_limit_reached", most < quasi_static_imbalance ? 1.0 : 0.0});
     }
     const auto yield =
         std::find_if(path.begin(), path.end(), [](const PullOutState& s) { return s.mean_damage > 0.0; });

@@ -101,19 +101,26 @@ void PullOutPath::scale(State& state, double factor)
     }
 }
 
-/// What the springs take up at once is the work of this move; the grip keeps its place while all comes to rest.
+/// The grip keeps its place while all comes to rest.
 void PullOutPath::shift_fibre(Model& model, State& state, double by)
 {
     Bodies& b = state.bodies;
     const Ledger before = energy_ledger(model, state);
     state.travel += std::fabs(by);
-    int grip = -1;
     for (int i = 0; i < b.size(); ++i) {
         if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
-        if (b.wall[i] == pull_out_.grip_wall) grip = i;
     }
+    book_move(model, state, before);
+}
+
+/// Of a move that the grip alone did not make: what springs take up at once and friction loses is its work.
+void PullOutPath::book_move(Model& model, State& state, const Ledger& before)
+{
     step_in_place(model, state);
     const Ledger after = energy_ledger(model, state);
+    Bodies& b = state.bodies;
+    int grip = 0;
+    while (b.wall[grip] != pull_out_.grip_wall) ++grip;
     b.external_work.at(grip) += before.residual() - after.residual();
     remember_grip(state);
 }
@@ -199,7 +206,9 @@ PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, c
             move = std::clamp(move, -most_move, most_move);
             before = missing;
             moved = move;
+            const Ledger held = energy_ledger(model, state);
             scale(state, 1.0 + move);
+            book_move(model, state, held);
         }
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
     }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "experiment/pull_out.h"
+#include "motion/energy.h"
 #include "motion/relax.h"
 
 #include <functional>
@@ -43,6 +44,7 @@ private:
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
+    void book_move(Model& model, State& state, const Ledger& before);
     void remember_grip(const State& state);
     void book_scaling(State& state, double factor);
     void book_work(State& state);

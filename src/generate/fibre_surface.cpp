@@ -12,9 +12,12 @@ namespace grainfrac {
 
 namespace {
 
-/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one: with more, the fibre
-/// would be tied to spheres that lie behind others.
-constexpr double ring_width = 0.35;
+/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one. What is farther from
+/// the axis moves less with the fibre, by tau a ln(r/a)/G: patches at different distances bear different shear. Where
+/// that leaves more than `widest_gap` without a sphere, as in packings without order, up to the wider share; with more
+/// the fibre would be tied to spheres that lie behind others.
+constexpr double ring_width = 0.2, wide_ring = 0.35;
+constexpr double widest_gap = 2.0 * std::numbers::pi / 3.0 * (1.0 + 1e-6);  // [rad]
 /// The same for grains, over their distance from the axis: faces of one hole are rarely at one distance.
 constexpr double face_ring_width = 0.25;
 /// Centres whose line is tilted less than this against the plane across the fibre are side by side.
@@ -78,7 +81,7 @@ public:
             }
         }
         const double size = 2.0 * model_.shapes.radius[state_.bodies.shape[body]];
-        add(nearest, body, x, ring_width * size, size);
+        add(nearest, body, x, wide_ring * size, size);
     }
 
     void add_grain(int body)
@@ -103,9 +106,19 @@ public:
     std::vector<SharedFace> patches()
     {
         for (std::vector<Neighbour>& ring : around_) {
+            if (ring.empty()) continue;
             double least = 1e300;
             for (const Neighbour& n : ring) least = std::min(least, n.distance);
-            std::erase_if(ring, [&](const Neighbour& n) { return n.distance > least + n.width; });
+            const auto within = [&](double share) {
+                std::vector<Neighbour> near;
+                for (const Neighbour& n : ring) {
+                    if (n.distance <= least + share * n.width) near.push_back(n);
+                }
+                return near;
+            };
+            std::vector<Neighbour> near = within(ring_width / wide_ring);
+            const bool wide = share_circle(near) > widest_gap && ring.front().size > 0.0;
+            ring = within(wide || ring.front().size == 0.0 ? 1.0 : ring_width / wide_ring);
             share_circle(ring);
         }
         const std::vector<double> length = covered();
@@ -179,17 +192,22 @@ private:
         return sum / static_cast<double>(ring.size());
     }
 
-    /// Half the way to the next on either side.
-    static void share_circle(std::vector<Neighbour>& ring)
+    /// Half the way to the next on either side; returns the widest gap [rad].
+    static double share_circle(std::vector<Neighbour>& ring)
     {
         constexpr double turn = 2.0 * std::numbers::pi;
         std::sort(ring.begin(), ring.end(), [](const Neighbour& x, const Neighbour& y) { return x.angle < y.angle; });
         const std::size_t n = ring.size();
+        double widest = n < 2 ? turn : 0.0;
         for (std::size_t i = 0; i < n; ++i) {
+            double next = ring[(i + 1) % n].angle - ring[i].angle;
+            if (next <= 0.0) next += turn;
+            widest = std::max(widest, next);
             double gap = ring[(i + 1) % n].angle - ring[(i + n - 1) % n].angle;
             if (gap <= 0.0) gap += turn;
             ring[i].share = n < 3 ? turn / static_cast<double>(n) : 0.5 * gap;
         }
+        return widest;
     }
 
     const Model& model_;

@@ -239,4 +239,5 @@ TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pu
     const double expected = 1e6 / contraction * (1.0 - std::exp(-2.0 * 0.1 * contraction * p.length));
     CHECK(run.path.back().mean_damage == Approx(1.0));
     CHECK(run.path.back().end_stress == Approx(expected).epsilon(tolerance));
+    CHECK(energy_ledger(run.built.model, run.built.state).relative_error() < 5e-3);
 }
