@@ -217,3 +217,17 @@ TEST_CASE("fibre ends: bends that bear on nothing are told", "[pull_out]")
     c.bonds[1].normal_stiffness = 1e9;
     CHECK(build(c, Device::cpu).experiment.warnings.empty());
 }
+
+TEST_CASE("fibre ends: fibres that reach out of their matrix or run through each other are refused", "[pull_out]")
+{
+    Case c = fibre_in_lattice();
+    c.parts[1].copies = {{2.6, 0.0, 0.0}};
+    CHECK(key_refused(c) == "parts[1].copies[0]");  // 2.6 + 1 > 3.5
+    c.parts[1].copies = {{1.9, 0.0, 0.0}};
+    CHECK(key_refused(c) == "parts[1].copies[0]");
+    c.parts[1].copies = {{2.1, 0.0, 0.0}};
+    CHECK(key_refused(c).empty());
+    c.parts[1].copies.clear();
+    c.parts[1].fibre.radius = 3.6;
+    CHECK(key_refused(c).rfind("parts[1].fibre", 0) == 0);
+}
