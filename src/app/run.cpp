@@ -63,6 +63,12 @@ void warn_about_loading(const Built& b, const RunRecord& record)
         spdlog::warn("the energy account is off by {:.2g} of its largest term; lower {}", e.relative_error(),
                      by_events ? "test.damage_step or test.relaxed" : "control.time_step_safety");
     }
+    if (test.quasi_static && test.pull_out && record.imbalance_at_peak > 1e-2) {
+        spdlog::warn(
+            "at the peak the support bears {:.2g} more or less than the grip pulls with (quasi-static: < 0.01); load "
+            "more slowly",
+            record.imbalance_at_peak);
+    }
     if (test.quasi_static && record.kinetic_over_elastic > 1e-2) {
         spdlog::warn(
             "kinetic energy reached {:.2g} of the elastic energy before the peak (quasi-static: < 0.01); load more "

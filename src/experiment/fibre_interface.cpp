@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -233,6 +234,21 @@ void finish_fibre_interfaces(const Case& c, Model& model, State& state, const Bo
                 f.slip_limit.at(i) = state.bodies.position[fibre][axis_index(part.region.axis)] - low;
             }
         }
+    }
+}
+
+void part_taken_fibres(const Case& c, Model& model, const BondTable& table)
+{
+    const int n = static_cast<int>(model.groups.size());
+    for (const FibrePair& pair : fibre_pairs(c, table)) {
+        const PartSpec &fibre = part_at(c, pair.fibre), &matrix = part_at(c, pair.matrix);
+        const bool told = std::any_of(c.contacts.begin(), c.contacts.end(), [&](const ContactSpec& s) {
+            return s.between == std::array{fibre.name, matrix.name} || s.between == std::array{matrix.name, fibre.name};
+        });
+        if (fibre.generator != "taken" || told) continue;
+        LinearContact& law = model.contact_laws.host()[static_cast<std::size_t>(
+            model.contact_law_of[static_cast<std::size_t>(pair.fibre * n + pair.matrix)])];
+        law.area_stiffness = law.friction = 0.0;
     }
 }
 

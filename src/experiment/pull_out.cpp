@@ -41,7 +41,9 @@ int axis_along(const Vec3& direction)
     for (int k = 0; k < 3; ++k) {
         if (std::fabs(std::fabs(direction[k]) - 1.0) < along_axis) return k;
     }
-    throw InputError("test.fibre", "the loaded end of the fibre must point along an axis in a pull_out test");
+    throw InputError("test.fibre",
+                     "must run along an axis in a pull_out test: from `from` to `to`, or its last piece from point to "
+                     "point");
 }
 
 void hold(State& state, int body, int wall, int axis)
@@ -50,15 +52,17 @@ void hold(State& state, int body, int wall, int axis)
     state.bodies.held.at(body) = 1 << axis;
 }
 
-/// Nodes with patches, what of their fibre lies in the matrix, and the grip at the last node of each chain.
-void place_chains(const std::vector<FibreChain>& chains, State& state, PullOut& p)
+/// The pull goes along the line of the fibre, whatever way its last piece has. Nodes with patches, what of their fibre
+/// lies in the matrix, and the grip at the last node of each chain.
+void place_chains(const FibreSpec& line, const std::vector<FibreChain>& chains, State& state, PullOut& p)
 {
     const auto at = [&](int body) { return state.bodies.start_position[body]; };
     std::vector<double> area(static_cast<std::size_t>(state.bodies.size()), 0.0);
     const InterfaceBonds& f = state.interfaces;
     for (const int i : fibre_interfaces(p, state)) area[static_cast<std::size_t>(fibre_side(p, state, i))] += f.area[i];
     const std::vector<int>& first = chains.front().nodes;
-    p.direction = normalized(at(first.back()) - at(first[first.size() - 2]));
+    p.direction = line.shape == "points" ? normalized(at(first.back()) - at(first[first.size() - 2]))
+                                         : normalized(line.to - line.from);
     const int axis = axis_along(p.direction);
     const double radius = chains.front().radius;
     p.piece = chains.front().way[1] - chains.front().way[0];
@@ -211,7 +215,7 @@ Experiment set_up_pull_out(const Case& c, Model& model, State& state)
     if (part.generator == "taken")
         place_taken(part, model, state, p);
     else
-        place_chains(fibre_chains(c, state, p.fibre_group), state, p);
+        place_chains(part.fibre, fibre_chains(c, state, p.fibre_group), state, p);
     support(c, model, state, p);
     if (c.test.control == "damage") check_only_the_interface_softens(c, p, model, state);
 

@@ -179,6 +179,13 @@ std::vector<NamedResult> pull_out_results(const Experiment& e, const std::vector
                                   {"stress_at_largest_displacement_Pa", shift->end_stress},
                                   {"work_J_per_m2", work},
                                   {"last_mean_damage", path.back().mean_damage}};
+    if (!e.pull_out->quasi_static) {
+        double most = 0.0;
+        for (auto s = path.begin(); s <= peak; ++s)
+            most = std::max(most, std::fabs(s->end_stress - s->support_stress) / peak->end_stress);
+        r.push_back({"inertia_stress_Pa", e.pull_out->young_modulus * e.speed_of_each_wall / e.wave_speed});
+        r.push_back({"largest_imbalance_to_peak", most});
+    }
     const auto yield =
         std::find_if(path.begin(), path.end(), [](const PullOutState& s) { return s.mean_damage > 0.0; });
     if (yield != path.begin() && yield != path.end()) {

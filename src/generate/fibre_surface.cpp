@@ -12,13 +12,16 @@ namespace grainfrac {
 
 namespace {
 
-/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one: with more, the fibre
-/// would be tied to spheres that lie behind others.
-constexpr double ring_width = 0.35;
+/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one. What is farther from
+/// the axis moves less with the fibre, by tau a ln(r/a)/G: patches at different distances bear different shear. Where
+/// that leaves more than `widest_gap` without a sphere, as in packings without order, up to the wider share; with more
+/// the fibre would be tied to spheres that lie behind others.
+constexpr double ring_width = 0.2, wide_ring = 0.35;
+constexpr double widest_gap = 2.0 * std::numbers::pi / 3.0 * (1.0 + 1e-6);  // [rad]
 /// Centres whose line is tilted less than this against the plane across the fibre are side by side.
 constexpr double side_by_side = 1e-6;
 
-/// A body beside a node.
+/// A sphere of the matrix beside a node.
 struct Neighbour {
     int body = -1;
     Vec3 place;             // of the patch [m]
@@ -27,7 +30,8 @@ struct Neighbour {
     double angle = 0.0;     // about it [rad]
     double share = 0.0;     // of the circle [rad]
     double width = 0.0;     // of the ring that it may count to [m]
-    double size = 0.0;      // of a sphere; grains have nodes beside each of their faces [m]
+    double size = 0.0;      // of the sphere [m]
+    double along = 0.0;     // the fibre, from the node [m]
 };
 
 /// Rectangle about `center`, its normal from a to b.
@@ -79,15 +83,24 @@ public:
             }
         }
         const double size = 2.0 * model_.shapes.radius[state_.bodies.shape[body]];
-        add(nearest, body, x, ring_width * size, size);
+        add(nearest, body, x, wide_ring * size, size);
     }
 
     std::vector<SharedFace> patches()
     {
         for (std::vector<Neighbour>& ring : around_) {
+            if (ring.empty()) continue;
             double least = 1e300;
             for (const Neighbour& n : ring) least = std::min(least, n.distance);
-            std::erase_if(ring, [&](const Neighbour& n) { return n.distance > least + n.width; });
+            const auto within = [&](double share) {
+                std::vector<Neighbour> near;
+                for (const Neighbour& n : ring) {
+                    if (n.distance <= least + share * n.width) near.push_back(n);
+                }
+                return near;
+            };
+            std::vector<Neighbour> near = within(ring_width / wide_ring);
+            ring = within(share_circle(near) > widest_gap ? 1.0 : ring_width / wide_ring);
             share_circle(ring);
         }
         const std::vector<double> length = covered();
@@ -110,52 +123,71 @@ private:
         if (along < -chain_.reach_back(k) - slack || along > chain_.reach_on(k) + slack) return;
         const Vec3 across = tangential(from, t);
         const double r = norm(across);
-        const double farthest = chain_.radius + (size > 0.0 ? size : chain_.radius);
-        if (r == 0.0 || r > farthest) return;
+        if (r == 0.0 || r > chain_.radius + size) return;
         const Vec3 e1 = any_perpendicular(t), e2 = cross(t, e1);
-        around_[k].push_back(
-            {body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0, width, size});
+        around_[k].push_back({body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0,
+                              width, size, along});
     }
 
-    /// Length of fibre of each node's patches.
+    /// Length of fibre of each node's patches: half-way to the next node that has some; beyond the last one as far as
+    /// its spheres reach, a layer half its distance to the next.
     std::vector<double> covered() const
     {
         std::vector<std::size_t> tied;  // nodes that have some
         for (std::size_t k = 0; k < around_.size(); ++k) {
             if (!around_[k].empty()) tied.push_back(k);
         }
+        std::vector<double> gap(tied.size(), 0.0);  // to the next one; 0: too far, the matrix has a hole there
+        double sum = 0.0;
+        int layers = 0;
+        for (std::size_t i = 0; i + 1 < tied.size(); ++i) {
+            const std::size_t k = tied[i], l = tied[i + 1];
+            const double size = std::max(around_[k].front().size, around_[l].front().size);
+            const double way = chain_.way[l] - chain_.way[k];
+            if (way > (chain_.reach_on(k) + chain_.reach_back(l) + size) * (1.0 + 1e-9)) continue;
+            gap[i] = way;
+            sum += way + middle(around_[l]) - middle(around_[k]);
+            ++layers;
+        }
         std::vector<double> length(around_.size(), 0.0);
-        // half the gap to the next one; 0 where it is too wide: the matrix has a hole there
-        const auto half_gap = [&](std::size_t i, std::size_t j) {
-            const std::size_t k = tied[i], l = tied[j];
-            const double gap = chain_.way[l] - chain_.way[k], pieces = chain_.reach_on(k) + chain_.reach_back(l),
-                         size = std::max(around_[k].front().size, around_[l].front().size);
-            return gap <= (pieces + size) * (1.0 + 1e-9) ? 0.5 * gap : 0.0;
-        };
         for (std::size_t i = 0; i < tied.size(); ++i) {
             const std::size_t k = tied[i];
-            const double before = i > 0 ? half_gap(i - 1, i) : 0.0,
-                         after = i + 1 < tied.size() ? half_gap(i, i + 1) : 0.0;
-            const auto to_end = [](double other, double piece, double left) {
-                return std::min(other > 0.0 ? other : piece, left);
+            const std::vector<Neighbour>& ring = around_[k];
+            const auto beyond = [&](double place, double left) {
+                const double reach = 0.5 * ring.front().size;
+                return std::clamp(place + (layers > 0 ? std::min(reach, 0.5 * sum / layers) : reach), 0.0, left);
             };
-            length[k] = (before > 0.0 ? before : to_end(after, chain_.reach_back(k), chain_.way[k])) +
-                        (after > 0.0 ? after : to_end(before, chain_.reach_on(k), chain_.whole - chain_.way[k]));
+            const bool goes_back = i > 0 && gap[i - 1] > 0.0, goes_on = gap[i] > 0.0;
+            length[k] = (goes_back ? 0.5 * gap[i - 1] : beyond(-middle(ring), chain_.way[k])) +
+                        (goes_on ? 0.5 * gap[i] : beyond(middle(ring), chain_.whole - chain_.way[k]));
         }
         return length;
     }
 
-    /// Half the way to the next on either side.
-    static void share_circle(std::vector<Neighbour>& ring)
+    /// Place of a ring along the fibre, from its node [m].
+    static double middle(const std::vector<Neighbour>& ring)
+    {
+        double sum = 0.0;
+        for (const Neighbour& n : ring) sum += n.along;
+        return sum / static_cast<double>(ring.size());
+    }
+
+    /// Half the way to the next on either side; returns the widest gap [rad].
+    static double share_circle(std::vector<Neighbour>& ring)
     {
         constexpr double turn = 2.0 * std::numbers::pi;
         std::sort(ring.begin(), ring.end(), [](const Neighbour& x, const Neighbour& y) { return x.angle < y.angle; });
         const std::size_t n = ring.size();
+        double widest = n < 2 ? turn : 0.0;
         for (std::size_t i = 0; i < n; ++i) {
+            double next = ring[(i + 1) % n].angle - ring[i].angle;
+            if (next <= 0.0) next += turn;
+            widest = std::max(widest, next);
             double gap = ring[(i + 1) % n].angle - ring[(i + n - 1) % n].angle;
             if (gap <= 0.0) gap += turn;
             ring[i].share = n < 3 ? turn / static_cast<double>(n) : 0.5 * gap;
         }
+        return widest;
     }
 
     const Model& model_;

@@ -32,9 +32,9 @@ SharedFace fibre_patch(int fibre, int matrix, const Vec3& center, const Vec3& ou
                        double width);
 
 /// One patch for each body of the matrix that a node sees beside it: the nearest spheres around it, with the patch at
-/// their centres, and the grains around it (grain_patches). A patch of a sphere is as wide as its share of the
-/// circle and as long as the fibre half-way to the next nodes that have some, so that the patches cover it; they end as
-/// far beyond the last such nodes as they began before, or with the fibre.
+/// their centres, and the grains around it (grain_patches). A patch of a sphere is as wide as its share of the circle
+/// and as long as the fibre half-way to the next nodes that have some, so that the patches cover what lies in the
+/// matrix.
 std::vector<SharedFace> chain_patches(const Model& model, const State& state, const FibreChain& chain,
                                       const std::vector<char>& is_matrix);
 

@@ -338,7 +338,7 @@ TEST_CASE("a wavy fibre takes just the spheres that are near to it", "[packings]
     f.fibre.to = {0, 0, 4};
     f.fibre.amplitude = 0.6;
     f.fibre.wavelength = 5.0;
-    const Vec3 shift{1.5, 0.5, 0};
+    const Vec3 shift{0.5, 2.1, 0};
     f.copies = {shift};
     const auto distance = [&](const Vec3& x) {  // from the sine itself, in steps of 0.4 mm
         double least = 1e300;
