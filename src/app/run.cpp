@@ -67,6 +67,12 @@ void warn_about_outcome(const Built& b, RunRecord& record)
         warn(record, "the energy account is off by {:.2g} of its largest term; lower {}", e.relative_error(),
              by_events ? "test.damage_step or test.relaxed" : "control.time_step_safety");
     }
+    if (test.quasi_static && test.pull_out && record.imbalance_at_peak > 1e-2) {
+        spdlog::warn(
+            "at the peak the support bears {:.2g} more or less than the grip pulls with (quasi-static: < 0.01); load "
+            "more slowly",
+            record.imbalance_at_peak);
+    }
     if (test.quasi_static && record.kinetic_over_elastic > 1e-2) {
         warn(record,
              "kinetic energy reached {:.2g} of the elastic energy before the peak (quasi-static: < 0.01); load more "
@@ -118,6 +124,7 @@ int run_command(const Options& o)
         "threads",
         GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
         built.state.parallels.size(), built.state.sphere_bonds.size(), to_string(device), threads());
+    for (const std::string& warning : built.experiment.warnings) spdlog::warn("{}", warning);
     record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 
     for (const std::string& line : plausibility_warnings(c, built, choose_time_step(c, built.model, built.state)))

@@ -9,6 +9,7 @@
 #include "experiment/dcb.h"
 #include "experiment/drop.h"
 #include "experiment/experiment.h"
+#include "experiment/fibre_interface.h"
 #include "experiment/grips.h"
 #include "experiment/laws.h"
 #include "experiment/pre_cut.h"
@@ -215,8 +216,8 @@ Built build(const Case& c, Device device)
     bond_shared_faces(model, state, grains, c.simulation.seed, rule_of,
                       fibre_patches(c, model, state, spheres, first_sphere, table));
     pre_cut.finish(state);
-    finish_fibre_interfaces(c, state, spheres, first_sphere, table);
     bond_spheres(c, model, state, spheres, first_sphere, table);
+    finish_fibre_interfaces(c, model, state, table);
     check_bonds_exist(c, model, state, table);
     check_snap_back(model, state, table);
 
@@ -227,6 +228,7 @@ Built build(const Case& c, Device device)
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);
+    part_taken_fibres(c, model, table);
 
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     built.experiment.quasi_static_speed = quasi_static_speed(c, model);
@@ -263,6 +265,8 @@ Measurement measure(const Experiment& e, const Model&, const State& state)
         m.load = 0.5 * (push + other_push);
         if (m.load != 0.0) m.platen_imbalance = std::fabs(push - other_push) / std::fabs(m.load);
     }
+    if (e.pull_out && push != 0.0)
+        m.platen_imbalance = std::fabs(1.0 - pull_out_state(*e.pull_out, state).support_stress * s.stress_area / push);
     m.displacement -= s.start_displacement;
     if (s.length > 0.0) m.strain = m.displacement / s.length;
     if (s.stress_area > 0.0) m.stress = m.load / s.stress_area;

@@ -7,7 +7,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grainfrac {
@@ -18,12 +20,17 @@ public:
     PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at);
     /// Each row is on disk when it returns; errors throw std::runtime_error that names the file.
     void append(const PullOutState& row, const FibreProfile& profile);
+    /// The profile without damage, where none came.
+    void finish();
 
 private:
+    void put_profile(const PullOutState& row, const FibreProfile& profile);
+
     std::filesystem::path folder_;
     std::ofstream rows_, profiles_;
     std::vector<double> due_;  // rising
     std::size_t next_ = 0;
+    std::optional<std::pair<PullOutState, FibreProfile>> whole_;  // without damage, the last so far
 };
 
 /// plots/pull_out: stress at the fibre's end against slip and displacement; plots/fibre_shear and plots/fibre_stress:
