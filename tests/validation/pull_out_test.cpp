@@ -244,8 +244,12 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
     s.shift = 1e-3;
     s.slides = true;
     s.slide = 0.4;
-    run.follow(s, [](const PullOutState& now) { return now.exit_slip > 2.0; });
     const PullOut& p = run.pull_out();
+    FibreProfile first_profile;
+    run.follow(s, [&](const PullOutState& now) {
+        if (first_profile.slip.empty()) first_profile = fibre_profile(p, run.built.state);
+        return now.exit_slip > 2.0;
+    });
     // patches leave the friction one level after the other: tau_r times the area that is left
     for (const PullOutState& now : run.path) {
         if (now.exit_slip < 0.2) continue;
@@ -257,6 +261,9 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
         CHECK(now.end_stress == Approx(2.0 * 0.2e6 * left).epsilon(0.01));
     }
     CHECK(run.path.back().exit_slip > 2.0);
+    // first state: from the last level to the exit the fibre is stretched by the whole pull
+    CHECK(run.path[1].exit_slip - first_profile.slip.back() ==
+          Approx(0.5 * p.piece * run.path[1].end_stress / p.young_modulus).epsilon(1e-6));
 }
 
 TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pull_out]")
