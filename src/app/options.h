@@ -31,6 +31,9 @@ int run_command(const Options& options);
 int generate_command(const Options& options);
 int check_command(const Options& options);
 int calibrate_command(const Options& options);
+int schema_command();
+/// `kind`: a test.kind or "calibrate".
+int new_command(const Options& options, const std::string& kind);
 int info_command(const std::string& folder);
 
 }  // namespace grainfrac

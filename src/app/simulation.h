@@ -29,6 +29,7 @@ struct PhaseTimes {
 /// What the run found out beyond its files.
 struct RunRecord {
     std::vector<HistoryRow> rows;
+    std::vector<std::string> warnings;  ///< of input and outcome
     double peak_load = 0.0;             ///< [N]
     double peak_stress = 0.0;           ///< [Pa]
     double peak_time = 0.0;             ///< [s]

@@ -221,6 +221,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     j["device"] = facts.device;
     j["threads"] = facts.threads;
     j["exit"] = {{"code", ending.code}, {"reason", ending.reason}};
+    j["warnings"] = record.warnings;
     j["counts"] = counts(b);
     j["time_step"] = {{"dt_s", record.time_step},
                       {"stability_limit_s", record.critical_step},

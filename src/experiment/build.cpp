@@ -15,6 +15,7 @@
 #include "experiment/pre_cut.h"
 #include "experiment/precrack.h"
 #include "experiment/pull_out.h"
+#include "experiment/resources.h"
 #include "experiment/specimen.h"
 #include "experiment/sphere_bonds.h"
 #include "experiment/uniaxial.h"
@@ -168,6 +169,7 @@ void check_nothing_overlaps(const Case& c, const Model& model, State state)
 
 Built build(const Case& c, Device device)
 {
+    check_resources(c);
     Built built;
     Model& model = built.model;
     State& state = built.state;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generate/fibre_surface.h"
 
-#include "geometry/gjk.h"
+#include "generate/fibre_in_grains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,10 @@ namespace {
 /// the fibre would be tied to spheres that lie behind others.
 constexpr double ring_width = 0.2, wide_ring = 0.35;
 constexpr double widest_gap = 2.0 * std::numbers::pi / 3.0 * (1.0 + 1e-6);  // [rad]
-/// The same for grains, over their distance from the axis: faces of one hole are rarely at one distance.
-constexpr double face_ring_width = 0.25;
 /// Centres whose line is tilted less than this against the plane across the fibre are side by side.
 constexpr double side_by_side = 1e-6;
 
-/// A body beside a node.
+/// A sphere of the matrix beside a node.
 struct Neighbour {
     int body = -1;
     Vec3 place;             // of the patch [m]
@@ -32,15 +30,9 @@ struct Neighbour {
     double angle = 0.0;     // about it [rad]
     double share = 0.0;     // of the circle [rad]
     double width = 0.0;     // of the ring that it may count to [m]
-    double size = 0.0;      // of a sphere; grains have nodes beside each of their faces [m]
+    double size = 0.0;      // of the sphere [m]
     double along = 0.0;     // the fibre, from the node [m]
 };
-
-Vec3 tangent_at(const State& state, const std::vector<int>& nodes, std::size_t k)
-{
-    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
-    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
-}
 
 /// Rectangle about `center`, its normal from a to b.
 std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& along, double length, double width)
@@ -49,8 +41,16 @@ std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& 
     return {center - u - v, center + u - v, center + u + v, center - u + v};
 }
 
-SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
-                 double width)
+}  // namespace
+
+Vec3 fibre_tangent(const State& state, const std::vector<int>& nodes, std::size_t k)
+{
+    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
+    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
+}
+
+SharedFace fibre_patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
+                       double width)
 {
     SharedFace f;
     f.a = std::min(fibre, matrix);
@@ -60,6 +60,8 @@ SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward,
     f.polygon = rectangle(center, f.normal, square, length, width);
     return f;
 }
+
+namespace {
 
 class Ring {
 public:
@@ -84,25 +86,6 @@ public:
         add(nearest, body, x, wide_ring * size, size);
     }
 
-    void add_grain(int body)
-    {
-        const ShapesView shapes = view(model_.shapes, Device::cpu);
-        const std::int32_t s = state_.bodies.shape[body];
-        const PlacedCore core{shapes.vertices.data + shapes.vertex_begin[s],
-                              shapes.vertex_begin[s + 1] - shapes.vertex_begin[s], state_.bodies.position[body],
-                              state_.bodies.orientation[body]};
-        const Vec3 origin{};
-        for (std::size_t k = 0; k < chain_.nodes.size(); ++k) {
-            const Vec3 node = state_.bodies.position[chain_.nodes[k]];
-            if (norm(state_.bodies.position[body] - node) > shapes.bounding_radius[s] + 4.0 * chain_.radius) continue;
-            const PlacedCore point{&origin, 1, node, Quat{}};
-            const ClosestPoints near = closest_points(point, core, state_.bodies.position[body] - node);
-            if (near.distance <= 0.0) continue;
-            const Vec3 surface = near.b - (shapes.radius[s] / near.distance) * (near.b - near.a);
-            add(k, body, surface, face_ring_width * near.distance, 0.0);
-        }
-    }
-
     std::vector<SharedFace> patches()
     {
         for (std::vector<Neighbour>& ring : around_) {
@@ -117,16 +100,16 @@ public:
                 return near;
             };
             std::vector<Neighbour> near = within(ring_width / wide_ring);
-            const bool wide = share_circle(near) > widest_gap && ring.front().size > 0.0;
-            ring = within(wide || ring.front().size == 0.0 ? 1.0 : ring_width / wide_ring);
+            ring = within(share_circle(near) > widest_gap ? 1.0 : ring_width / wide_ring);
             share_circle(ring);
         }
         const std::vector<double> length = covered();
         std::vector<SharedFace> faces;
         for (std::size_t k = 0; k < around_.size(); ++k) {
             for (const Neighbour& n : around_[k]) {
-                faces.push_back(patch(chain_.nodes[k], n.body, n.place, n.outward, tangent_at(state_, chain_.nodes, k),
-                                      length[k], n.share * chain_.radius));
+                faces.push_back(fibre_patch(chain_.nodes[k], n.body, n.place, n.outward,
+                                            fibre_tangent(state_, chain_.nodes, k), length[k],
+                                            n.share * chain_.radius));
             }
         }
         return faces;
@@ -135,13 +118,12 @@ public:
 private:
     void add(std::size_t k, int body, const Vec3& place, double width, double size)
     {
-        const Vec3 t = tangent_at(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
+        const Vec3 t = fibre_tangent(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
         const double along = dot(from, t), slack = 1e-9 * chain_.whole;
         if (along < -chain_.reach_back(k) - slack || along > chain_.reach_on(k) + slack) return;
         const Vec3 across = tangential(from, t);
         const double r = norm(across);
-        const double farthest = chain_.radius + (size > 0.0 ? size : chain_.radius);
-        if (r == 0.0 || r > farthest) return;
+        if (r == 0.0 || r > chain_.radius + size) return;
         const Vec3 e1 = any_perpendicular(t), e2 = cross(t, e1);
         around_[k].push_back({body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0,
                               width, size, along});
@@ -171,15 +153,13 @@ private:
         for (std::size_t i = 0; i < tied.size(); ++i) {
             const std::size_t k = tied[i];
             const std::vector<Neighbour>& ring = around_[k];
-            const auto beyond = [&](double place, double own, double left) {
-                if (ring.front().size == 0.0) return std::min(own, left);
+            const auto beyond = [&](double place, double left) {
                 const double reach = 0.5 * ring.front().size;
                 return std::clamp(place + (layers > 0 ? std::min(reach, 0.5 * sum / layers) : reach), 0.0, left);
             };
             const bool goes_back = i > 0 && gap[i - 1] > 0.0, goes_on = gap[i] > 0.0;
-            length[k] =
-                (goes_back ? 0.5 * gap[i - 1] : beyond(-middle(ring), chain_.reach_back(k), chain_.way[k])) +
-                (goes_on ? 0.5 * gap[i] : beyond(middle(ring), chain_.reach_on(k), chain_.whole - chain_.way[k]));
+            length[k] = (goes_back ? 0.5 * gap[i - 1] : beyond(-middle(ring), chain_.way[k])) +
+                        (goes_on ? 0.5 * gap[i] : beyond(middle(ring), chain_.whole - chain_.way[k]));
         }
         return length;
     }
@@ -222,14 +202,18 @@ std::vector<SharedFace> chain_patches(const Model& model, const State& state, co
                                       const std::vector<char>& is_matrix)
 {
     Ring ring(model, state, chain);
+    std::vector<int> grains;
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (is_matrix[static_cast<std::size_t>(i)] == 0) continue;
         if (is_sphere(model, state.bodies, i))
             ring.add_sphere(i);
         else
-            ring.add_grain(i);
+            grains.push_back(i);
     }
-    return ring.patches();
+    std::vector<SharedFace> faces = ring.patches();
+    const std::vector<SharedFace> of_grains = grain_patches(model, state, chain, grains);
+    faces.insert(faces.end(), of_grains.begin(), of_grains.end());
+    return faces;
 }
 
 std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& fibre,
@@ -243,7 +227,7 @@ std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& 
         if (norm(from_axis(outer)) <= fibre.radius) continue;  // before the fibre's end, not beside it
         const Vec3 middle = 0.5 * (x + y);
         const Vec3 radial = normalized(from_axis(inner) + from_axis(outer));
-        faces.push_back(patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
+        faces.push_back(fibre_patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
     }
     const double area = 2.0 * std::numbers::pi * fibre.radius * fibre.length / static_cast<double>(faces.size());
     for (SharedFace& f : faces) {

@@ -333,6 +333,10 @@ void describe(V& v, PartSpec& s)
        .meaning =
            "number of rows and columns: those of the source, which may overshoot the region, or only what fits inside",
        .source = "Saleme Ruiz 2016, App. A"});
+    v("centered", s.centered,
+      {.used = prisms,
+       .meaning = "a prism of the first layer stands on the line through the region's centre, as the place of a fibre; "
+                  "otherwise the lattice starts in the lower corner of the region's box"});
     v("dilation_radius", s.dilation_radius,
       {.unit = "m",
        .range = positive,

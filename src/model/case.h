@@ -97,6 +97,7 @@ struct PartSpec {
     double thickness = 0.0;                 ///< [m]
     std::string stacking = "columnar";      ///< columnar (AA) | half | hollow (AB)
     std::string lattice = "nominal";        ///< nominal | contained
+    bool centered = false;                  ///< a prism stands on the line through the region's centre
     std::optional<double> dilation_radius;  ///< [m]; auto: 0.04 of the mean inradius
     double sliver_fraction = 0.05;          ///< [-]
     double gap = 0.0;                       ///< between neighbours, which are smaller by it [m]

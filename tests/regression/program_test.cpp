@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program as its user meets it: commands, exit codes, files, the example in short.
+#include "support/workplace.h"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using namespace grainfrac::test;
+
 const std::string program = GF_PROGRAM;
 const fs::path source = GF_SOURCE_DIR;
 const std::string example = (source / "examples/brazilian/brazilian.toml").string();
@@ -28,19 +32,6 @@ const std::string shorter =
     " --set parts.disc.side='\"1.2 mm\"' --set test.platen_speed='\"200 mm/s\"' --set test.contact_half_width='\"1.3 "
     "mm\"' --set bonds[0].tensile_strength='\"60 MPa\"'"
     " --set bonds[0].cohesion='\"150 MPa\"'";
-
-struct Outcome {
-    int code = 0;
-    std::string out, err;
-};
-
-std::string text_of(const fs::path& file)
-{
-    std::ifstream in(file);
-    std::ostringstream s;
-    s << in.rdbuf();
-    return s.str();
-}
 
 /// Of the last whole line of history.csv; 0 if it has none yet.
 double last_value(const std::string& history, const std::string& column)
@@ -58,30 +49,6 @@ double last_value(const std::string& history, const std::string& column)
     }
     return 0.0;
 }
-
-/// A folder of its own for each case, removed at the end.
-struct Workplace {
-    fs::path folder;
-    Workplace()
-    {
-        std::string name = (fs::temp_directory_path() / "grainfrac_test_XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        folder = name;
-    }
-    ~Workplace() { fs::remove_all(folder); }
-    Outcome run(const std::string& arguments) const
-    {
-        const std::string command =
-            "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > out.txt 2> err.txt < /dev/null";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / "out.txt"),
-                text_of(folder / "err.txt")};
-    }
-    nlohmann::json summary(const std::string& result) const
-    {
-        return nlohmann::json::parse(text_of(folder / result / "summary.json"));
-    }
-};
 
 }  // namespace
 
