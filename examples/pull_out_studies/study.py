@@ -165,12 +165,14 @@ def lengths(args, say):
             settings["test.stop.damage"] = 0.4  # the peak is behind
         out, seconds = run(args, f"length_{L}", settings)
         test = json.loads((out / "summary.json").read_text())["test"]
-        rows = table(out / "pull_out.csv")
-        most, last = test["largest_exit_slip_m"], float(rows[-1]["end_slip_m"])
+        # what hardly holds any more is not found exactly
+        slips = [float(r["end_slip_m"]) for r in table(out / "pull_out.csv")
+                 if float(r["end_stress_Pa"]) > 0.02 * test["peak_stress_Pa"]]
+        most, last = max(slips), slips[-1]
         peak, length = test["peak_stress_Pa"], test["embedded_length_m"]
         lag = interpolated(lag_lengths, lag_peaks, length)
         say(f"| {L} | {length:.3f} | {peak / 1e6:.4f} | {lag / 1e6:.4f} | {peak / lag:.4f} | "
-            + (f"{1e3 * most:.4f} | {1e3 * last:.4f} | {'yes' if most > 1.01 * FAILURE else 'no'} | {seconds:.0f} |"
+            + (f"{1e3 * most:.4f} | {1e3 * last:.4f} | {'yes' if most > 1.005 * last else 'no'} | {seconds:.0f} |"
                if whole else f" | | | {seconds:.0f} |"))
 
 

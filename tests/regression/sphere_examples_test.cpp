@@ -114,7 +114,7 @@ namespace {
 
 const char* const short_pull_out =
     "--set parts.matrix.region.height='\"6 m\"' --set parts.matrix.region.diameter='\"6 m\"' --set "
-    "test.damage_step=0.1 ";
+    "test.damage_step=0.04 ";
 
 struct PullOutRun {
     std::string hash;
