@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SIGINT and SIGTERM ask the run to stop at the next step; a second one ends the program at once.
+// SIGINT and SIGTERM ask the run to stop at the next step, a second one ends the program at once; SIGUSR1 asks for a
+// checkpoint.
 #pragma once
 
 namespace grainfrac {
@@ -7,5 +8,7 @@ namespace grainfrac {
 void watch_signals();
 /// The signal that came, 0 if none.
 int pending_signal();
+/// Whether SIGUSR1 came since this was last asked.
+bool checkpoint_asked_for();
 
 }  // namespace grainfrac

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "app/options.h"
+#include "app/origin.h"
 #include "app/prepare.h"
 #include "experiment/experiment.h"
 #include "io/crack_start.h"
 #include "io/results.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,7 +28,7 @@ struct PhaseTimes {
     double build = 0.0, steps = 0.0, output = 0.0, looks = 0.0, splitting = 0.0;
 };
 
-/// What the run found out beyond its files.
+/// What the run found out beyond its files. All of it goes into a checkpoint.
 struct RunRecord {
     std::vector<HistoryRow> rows;
     double peak_load = 0.0;             ///< [N]
@@ -48,10 +50,49 @@ struct RunRecord {
     double split_energy = 0.0;                           ///< that new surfaces held at the start [J]
     double bonding_energy = 0.0;                         ///< put in, negative, where stages made bonds [J]
     std::map<std::string, std::int64_t> refused_splits;  ///< by reason
+
+    template <class Visit>
+    void for_each_member(Visit&& visit)
+    {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = *this;  // every one of them
+        visit("rows", a);
+        visit("peak_load", b);
+        visit("peak_stress", c);
+        visit("peak_time", d);
+        visit("load_start", e);
+        visit("peak_displacement", f);
+        visit("kinetic_over_elastic", g);
+        visit("imbalance_at_peak", h);
+        visit("time_step", i);
+        visit("critical_step", j);
+        visit("limiter", k);
+        visit("history_interval", l);
+        visit("snapshot_interval", m);
+        visit("phases", n);
+        visit("first_momentum", o);
+        visit("last_momentum", p);
+        visit("cracks", q);
+        visit("splits", r);
+        visit("split_area", s);
+        visit("split_energy", t);
+        visit("bonding_energy", u);
+        visit("refused_splits", v);
+    }
 };
 
-/// Step through all stages of `built`, writing into `folder`. The state is left at the end of the run.
-Ending simulate(const Case& c, const Options& options, Built& built, ResultFolder& folder, RunRecord& record,
-                SnapshotFields& last_fields);
+/// Where a run that goes on begins.
+struct Restart {
+    std::filesystem::path checkpoint;
+    std::vector<std::filesystem::path> refused;  ///< newer ones, to be set aside
+    bool input_changed = false;
+    bool new_time_step = false;  ///< to be chosen anew
+    bool new_intervals = false;  ///< of history and snapshots
+};
+
+/// Step through all stages of `built`, writing into `folder`. The state is left at the end of the run. With `restart`
+/// what `built` holds is replaced from the checkpoint, and the files of the folder are cut back to it; throws
+/// CheckpointError, with the folder as it was, if nothing can go on from it.
+Ending simulate(const Case& c, const Options& options, const RunFacts& facts, const RunOrigin& origin, Built& built,
+                ResultFolder& folder, RunRecord& record, SnapshotFields& last_fields, const Restart* restart = nullptr);
 
 }  // namespace grainfrac

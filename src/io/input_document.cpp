@@ -445,6 +445,12 @@ Node read_document(const std::string& file, std::map<std::string, SourcePlace>& 
     }
 }
 
+Node parse_document(const std::string& text, const std::string& name)
+{
+    int line = 0;
+    return parsed(text, name, line);
+}
+
 void apply_override(Node& root, const std::string& text, std::vector<InputProblem>& problems,
                     std::map<std::string, SourcePlace>& places)
 {

@@ -32,6 +32,9 @@ const char* type_name(Node::Type type);
 /// The file as a tree. Throws InputError, with its line in places[""], if it cannot be read or is not TOML.
 Node read_document(const std::string& file, std::map<std::string, SourcePlace>& places);
 
+/// A text as a tree; `name`: of its file, for messages. Throws InputError.
+Node parse_document(const std::string& text, const std::string& name);
+
 /// Set the value that "key.path=value" names; tables that are not there are made. What is wrong with it goes to
 /// problems.
 void apply_override(Node& root, const std::string& text, std::vector<InputProblem>& problems,

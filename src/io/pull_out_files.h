@@ -3,10 +3,11 @@
 #pragma once
 
 #include "experiment/pull_out.h"
+#include "io/folder_mark.h"
+#include "io/growing_text.h"
 #include "io/results.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,14 @@ class PullOutFiles {
 public:
     /// `profiles_at`: mean damages whose profiles are kept, each where it is first reached.
     PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at);
+    /// Goes on from a checkpoint.
+    PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at, const PullOutMark& mark);
     /// Each row is on disk when it returns; errors throw std::runtime_error that names the file.
     void append(const PullOutState& row, const FibreProfile& profile);
+    PullOutMark mark() const;
 
 private:
-    std::filesystem::path folder_;
-    std::ofstream rows_, profiles_;
+    GrowingText rows_, profiles_;
     std::vector<double> due_;  // rising
     std::size_t next_ = 0;
 };
