@@ -48,7 +48,7 @@ bool in_course(std::string_view key)
     if (!key.starts_with("stages[")) return false;
     const std::string_view name = key.substr(key.rfind('.') + 1);
     for (const std::string_view ending :
-         {"duration", "load_drop", "load", "stress", "displacement", "unbalanced_force_ratio", "rest"}) {
+         {"duration", "load_drop", "load", "stress", "max_displacement", "unbalanced_force_ratio", "rest"}) {
         if (name == ending) return true;
     }
     return false;

@@ -3,6 +3,7 @@
 // interruption.
 #include "app/prepare.h"
 #include "app/run.h"
+#include "app/signals.h"
 #include "app/version.h"
 #include "io/checkpoint.h"
 #include "io/input.h"
@@ -107,6 +108,7 @@ int resume_from(Restart& restart, const Options& o, ResultFolder& folder, const 
 
 int resume_command(const Options& o)
 {
+    survive_signals();
     ResultFolder folder(o.out, ResultFolder::Existing::go_on);
     const std::optional<Ending> ended = end_of_run(folder.path());
     Restart restart;

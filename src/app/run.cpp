@@ -126,6 +126,7 @@ int carry_out(const Case& c, const Options& o, const RunFacts& facts, const RunO
 
 int run_command(const Options& o)
 {
+    survive_signals();
     const Case c = load_case(o);
     const std::string input_text = read_text(o.file);
     const Device device = parse_device(o.device);

@@ -38,9 +38,12 @@ void note_checkpoint(int)
 void watch_signals()
 {
     the_signal = 0;
-    checkpoint_asked = 0;
     std::signal(SIGINT, note);
     std::signal(SIGTERM, note);
+}
+
+void survive_signals()
+{
     std::signal(SIGUSR1, note_checkpoint);
     std::signal(SIGPIPE, SIG_IGN);  // a closed terminal must not end a run
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of the file, told as such

@@ -5,6 +5,9 @@
 
 namespace grainfrac {
 
+/// From here on SIGUSR1, a closed terminal and a file beyond its limit do not end the program.
+void survive_signals();
+/// From here on the run is asked to stop; before, it has nothing to save and ends at once.
 void watch_signals();
 /// The signal that came, 0 if none.
 int pending_signal();

@@ -112,6 +112,7 @@ public:
     {
         Ending ending{exit_code::done, "all stages done"};
         const auto stages = static_cast<std::int64_t>(experiment_.stages.size());
+        progress_.begin(progress(experiment_.stages[static_cast<std::size_t>(run_.stage)]));
         for (; run_.stage < stages; ++run_.stage, run_.stage_begun = false) {
             const Stage& stage = experiment_.stages[static_cast<std::size_t>(run_.stage)];
             spdlog::info("stage \"{}\"{}", stage.name, run_.stage_begun ? " goes on" : "");

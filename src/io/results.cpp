@@ -64,6 +64,15 @@ private:
     int fd_;
 };
 
+/// Nothing in it but folders: what a run leaves that was killed at once.
+bool holds_no_file(const fs::path& folder)
+{
+    std::error_code error;
+    const fs::recursive_directory_iterator entries(folder, error);
+    return !error && std::all_of(fs::begin(entries), fs::end(entries),
+                                 [](const fs::directory_entry& e) { return e.is_directory() && !e.is_symlink(); });
+}
+
 /// Removes an old result folder. Whatever else `folder` may be is refused and stays as it is.
 void clear_way(const fs::path& folder, bool replace)
 {
@@ -74,13 +83,16 @@ void clear_way(const fs::path& folder, bool replace)
     if (!replace)
         throw InputError("--out", name + "exists; choose another folder or allow it to be replaced with --force");
     if (!fs::is_directory(status)) throw InputError("--out", name + "is not a folder; it is not replaced");
-    const bool empty = fs::is_empty(folder, error);
-    if (!empty && !fs::is_regular_file(fs::symlink_status(folder / marker, error)))
+    if (!holds_no_file(folder) && !fs::is_regular_file(fs::symlink_status(folder / marker, error)))
         throw InputError("--out",
                          fmt::format("{}is not a result folder (it holds no {}); it is not replaced", name, marker));
     if (holds(folder, fs::current_path()))
         throw InputError("--out", name + "holds the working directory; it is not replaced");
     const FolderLock lock(folder);
+    for (const auto& entry :
+         fs::directory_iterator(folder, error)) {  // the marker last, or the rest is no result folder
+        if (entry.path().filename() != marker) fs::remove_all(entry.path(), error);
+    }
     fs::remove_all(folder, error);
     if (error) throw InputError("--out", name + "cannot be replaced: " + error.message());
 }

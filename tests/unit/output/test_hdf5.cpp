@@ -238,6 +238,23 @@ TEST_CASE("a checkpoint comes back bit for bit", "[output][checkpoint]")
     CHECK_FALSE(other.model.fracture_active);
 }
 
+TEST_CASE("every array of the state is on the list that checkpoints walk", "[output][checkpoint]")
+{
+    const auto check_all = [](auto owner) {
+        std::size_t listed = 0;
+        owner.for_each_array([&](const char*, auto& array) { listed += sizeof array; });
+        CHECK(listed == sizeof owner);  // structs of Buffers and nothing else
+    };
+    check_all(Bodies{});
+    check_all(InterfaceBonds{});
+    check_all(InterfacePoints{});
+    check_all(InterfaceCorners{});
+    check_all(ParallelBonds{});
+    check_all(SphereBonds{});
+    check_all(Contacts{});
+    check_all(Shapes{});
+}
+
 TEST_CASE("a damaged checkpoint is refused", "[output][checkpoint]")
 {
     sample::World w = sample::make_world();
