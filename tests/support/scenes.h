@@ -84,10 +84,10 @@ size = ["20 mm", "20 mm"]
 name = "press"
 move = [{ wall = "top", velocity = [0, 0, "-400 mm/s"] }]
 ramp = "20 us"
-max_displacement = "0.2 mm"
+max_displacement = "0.12 mm"
 [output]
-history = "5 us"
-every = "100 us"
+history = "3 us"
+every = "60 us"
 checkpoint_steps = )" +
                 std::to_string(checkpoint_steps) + "\n",
             {}};
