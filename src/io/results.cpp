@@ -64,13 +64,14 @@ private:
     int fd_;
 };
 
-/// Nothing in it but folders: what a run leaves that was killed at once.
+/// Nothing in it but folders, and perhaps a marker half written: what a run leaves that was killed at once.
 bool holds_no_file(const fs::path& folder)
 {
     std::error_code error;
     const fs::recursive_directory_iterator entries(folder, error);
-    return !error && std::all_of(fs::begin(entries), fs::end(entries),
-                                 [](const fs::directory_entry& e) { return e.is_directory() && !e.is_symlink(); });
+    return !error && std::all_of(fs::begin(entries), fs::end(entries), [&](const fs::directory_entry& e) {
+        return (e.is_directory() && !e.is_symlink()) || e.path() == aside(folder / marker);
+    });
 }
 
 /// Removes an old result folder. Whatever else `folder` may be is refused and stays as it is.
@@ -89,8 +90,8 @@ void clear_way(const fs::path& folder, bool replace)
     if (holds(folder, fs::current_path()))
         throw InputError("--out", name + "holds the working directory; it is not replaced");
     const FolderLock lock(folder);
-    for (const auto& entry :
-         fs::directory_iterator(folder, error)) {  // the marker last, or the rest is no result folder
+    // the marker last: without it the rest is no result folder
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
         if (entry.path().filename() != marker) fs::remove_all(entry.path(), error);
     }
     fs::remove_all(folder, error);
