@@ -102,7 +102,13 @@ public:
         if (restart.new_time_step) choose_step();
         if (restart.new_intervals) choose_intervals();
         folder_.go_on(facts, origin_.resolved, mark_, case_.test.profiles_at);
-        for (const auto& newer : restart.refused) set_aside(newer);
+        for (const auto& newer : restart.refused) {
+            spdlog::warn("{} is damaged or of another version: set aside as {}.refused", newer.string(),
+                         newer.filename().string());
+            set_aside(newer);
+        }
+        spdlog::info("goes on from {}, step {}, t = {:.6g} s{}", restart.checkpoint.string(), state_.step, state_.time,
+                     restart.input_changed ? ", with a changed input" : "");
         if (restart.input_changed) checkpoint();  // older ones know nothing of the change
         last_checkpoint_ = Clock::now();
         last_checkpoint_step_ = state_.step;

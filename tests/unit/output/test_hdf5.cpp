@@ -75,6 +75,29 @@ void read(const std::filesystem::path& path, Model& model, State& state)
     read_checkpoint(path, "0.1.0", content(model, state));
 }
 
+/// One of each kind of thing.
+struct Small {
+    std::string text = "a b";
+    std::vector<std::string> texts{"", "one", "two\n"};
+    std::map<std::string, std::int64_t> numbers{{"x", 1}, {"y", -2}};
+    std::optional<double> there = 0.1, missing;
+    bool flag = true;
+    std::vector<char> none;
+
+    template <class Visit>
+    void for_each_member(Visit&& visit)
+    {
+        auto& [a, b, c, d, e, f, g] = *this;
+        visit("text", a);
+        visit("texts", b);
+        visit("numbers", c);
+        visit("there", d);
+        visit("missing", e);
+        visit("flag", f);
+        visit("none", g);
+    }
+};
+
 /// Runs a hidden case of this very program on `file`: HDF5 does not open a file twice in one process.
 int read_in_another_process(const std::filesystem::path& file, const std::string& test)
 {
@@ -312,6 +335,33 @@ TEST_CASE("a checkpoint of another input is refused", "[output][checkpoint]")
     Model other;
     State state;
     REQUIRE_THROWS_WITH(read(folder / "a.h5", other, state), Catch::Contains("another input"));
+}
+
+TEST_CASE("a checkpoint of another version is refused", "[output][checkpoint]")
+{
+    sample::World w = sample::make_world();
+    const sample::TemporaryFolder folder;
+    write(folder / "a.h5", w.model, w.state);
+    REQUIRE_THROWS_WITH(read_checkpoint(folder / "a.h5", "0.2.0", content(w.model, w.state)),
+                        Catch::Contains("was written by grainfrac 0.1.0; this is 0.2.0"));
+}
+
+TEST_CASE("an archive gives everything back", "[output][checkpoint]")
+{
+    const sample::TemporaryFolder folder;
+    Small written, read{"", {"?"}, {{"z", 3}}, {}, 7.0, false, {'q'}};
+    write_checkpoint(folder / "a.h5", "0.1.0", [&](Archive& archive) { archive("/small", written); });
+    read_checkpoint(folder / "a.h5", "0.1.0", [&](Archive& archive) { archive("/small", read); });
+    CHECK(read.text == written.text);
+    CHECK(read.texts == written.texts);
+    CHECK(read.numbers == written.numbers);
+    CHECK(read.there == written.there);
+    CHECK_FALSE(read.missing);
+    CHECK(read.flag);
+    CHECK(read.none.empty());
+    Small wanted;
+    CHECK_THROWS_AS(read_checkpoint(folder / "a.h5", "0.1.0", [&](Archive& archive) { archive("/other", wanted); }),
+                    CheckpointError);
 }
 
 TEST_CASE("an empty state makes a checkpoint", "[output][checkpoint]")
