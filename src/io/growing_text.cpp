@@ -34,6 +34,12 @@ std::uint64_t checksum_of_head(const std::filesystem::path& path, std::int64_t b
 
 }  // namespace
 
+void check_head(const std::filesystem::path& path, const TextMark& mark)
+{
+    if (checksum_of_head(path, mark.bytes) != mark.checksum)
+        throw std::runtime_error(path.string() + ": was altered since the checkpoint");
+}
+
 GrowingText::GrowingText(std::filesystem::path path, const std::string& head)
     : path_(std::move(path)), file_(path_, std::ios::binary | std::ios::trunc), written_{0, no_bytes_checksum}
 {
@@ -42,8 +48,7 @@ GrowingText::GrowingText(std::filesystem::path path, const std::string& head)
 
 GrowingText::GrowingText(std::filesystem::path path, const TextMark& mark) : path_(std::move(path)), written_(mark)
 {
-    if (checksum_of_head(path_, mark.bytes) != mark.checksum)
-        throw std::runtime_error(path_.string() + ": was altered since the checkpoint");
+    check_head(path_, mark);
     std::error_code error;
     std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(mark.bytes), error);
     if (error) throw std::runtime_error(path_.string() + ": cannot write: " + error.message());

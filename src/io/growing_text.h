@@ -15,6 +15,9 @@ struct TextMark {
     std::uint64_t checksum = 0;
 };
 
+/// Throws std::runtime_error that names the file unless it begins as the mark says.
+void check_head(const std::filesystem::path& path, const TextMark& mark);
+
 class GrowingText {
 public:
     /// A new file that begins with `head`. Errors of all members throw std::runtime_error that names the file.

@@ -57,6 +57,12 @@ PullOutFiles::PullOutFiles(const std::filesystem::path& folder, std::vector<doub
 {
 }
 
+void check_heads(const std::filesystem::path& folder, const PullOutMark& mark)
+{
+    check_head(folder / rows_name, mark.rows);
+    check_head(folder / profiles_name, mark.profiles);
+}
+
 PullOutMark PullOutFiles::mark() const
 {
     return {rows_.mark(), profiles_.mark(), static_cast<std::int64_t>(next_)};

@@ -29,6 +29,9 @@ private:
     std::size_t next_ = 0;
 };
 
+/// Throws std::runtime_error that names the file unless both begin as the mark says.
+void check_heads(const std::filesystem::path& folder, const PullOutMark& mark);
+
 /// plots/pull_out: stress at the fibre's end against slip and displacement; plots/fibre_shear and plots/fibre_stress:
 /// the profiles. From the two files in `folder`.
 void write_pull_out_plots(const std::filesystem::path& folder);

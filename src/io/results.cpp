@@ -211,8 +211,17 @@ void ResultFolder::go_on(const RunFacts& facts, const std::string& resolved_toml
     impl_->facts = facts;
     const fs::path& folder = impl_->folder;
     for (const char* part : {"paraview", "plots", "checkpoint"}) fs::create_directories(folder / part);
-    // the new one is made before the old one, and anything else, is changed
-    impl_->table.emplace(folder / "results.h5", facts, mark.results);
+    // nothing is changed before it is known that all can go on
+    check_head(folder / "history.csv", mark.history);
+    if (mark.walls) check_head(folder / "walls.csv", *mark.walls);
+    if (mark.pull_out) check_heads(folder, *mark.pull_out);
+    try {
+        impl_->table.emplace(folder / "results.h5", facts, mark.results);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(aside(folder / "results.h5"), ignored);
+        throw;
+    }
     // written at an end that is none any more; the first of them tells that a run has ended
     for (const char* file : {"summary.json", "fragments.csv", "clusters.csv"}) fs::remove(folder / file);
     write_file(folder / marker, resolved_toml);
