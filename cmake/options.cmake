@@ -16,6 +16,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
 endif()
 target_compile_options(gf_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${GF_HOST_FLAGS};${GF_WARNINGS}>)
 
+if(GF_FUZZ)
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+        message(FATAL_ERROR "GF_FUZZ needs clang: gcc has no -fsanitize=fuzzer")
+    endif()
+    set(GF_SANITIZE address,undefined,float-cast-overflow,fuzzer-no-link)
+endif()
 if(GF_SANITIZE)
     target_compile_options(gf_options INTERFACE
         $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${GF_SANITIZE};-fno-omit-frame-pointer;-fno-sanitize-recover=all>)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/prepare.h"
+#include "experiment/resources.h"
 #include "generate/microstructure.h"
 #include "generate/packings.h"
 #include "generate/sphere_file.h"
@@ -54,6 +55,7 @@ template <class Make>
 auto made(const Case& c, const Make& make)
 {
     try {
+        check_resources(c);
         return make(c);
     } catch (const InputError& e) {
         report(e, c);

@@ -46,8 +46,8 @@ void add_case_options(CLI::App& command, Options& o)
 std::vector<std::string> with_command(int argc, char** argv)
 {
     std::vector<std::string> args(argv + 1, argv + argc);
-    static const std::vector<std::string> commands = {"run",    "generate", "check",    "info",
-                                                      "resume", "report",   "calibrate"};
+    static const std::vector<std::string> commands = {"run",    "generate",  "check", "info",  "resume",
+                                                      "report", "calibrate", "new",   "schema"};
     if (!args.empty() && args.front().front() != '-' &&
         std::find(commands.begin(), commands.end(), args.front()) == commands.end()) {
         args.insert(args.begin(), "run");
@@ -119,6 +119,19 @@ int main(int argc, char** argv)
     calibrate->add_flag("--no-report", o.no_report, "no plot at the end");
     calibrate->footer("Example: grainfrac calibrate examples/calibrate/hcp.toml");
 
+    std::string kind;
+    auto* new_case = app.add_subcommand("new", "write a commented start file for a test, or for calibrate");
+    new_case->add_option("TEST", kind, "kind of test")->required()->check(CLI::IsMember(new_case_kinds()));
+    new_case->add_option("-o,--out", o.out, "file to write (default: TEST.toml)");
+    new_case->add_flag("--force", o.force, "replace an existing file");
+    new_case->add_flag("-q,--quiet", o.quiet, "errors only");
+    new_case->footer("Example: grainfrac new brazilian -o disc.toml");
+
+    auto* schema = app.add_subcommand("schema", "print a JSON schema of input files, for editors");
+    schema->footer(
+        "Example: grainfrac schema > grainfrac.schema.json; the line `#:schema ./grainfrac.schema.json` at the top of "
+        "an input file tells editors with taplo (Even Better TOML) to complete and check its keys.");
+
     auto* info = app.add_subcommand("info", "version, build options and devices; or what a result folder holds");
     auto* resume = app.add_subcommand("resume", "go on with a run that was interrupted or killed");
     resume->add_option("DIR", o.out, "result folder")->required();
@@ -146,6 +159,8 @@ int main(int argc, char** argv)
         if (*generate) return generate_command(o);
         if (*check) return check_command(o);
         if (*calibrate) return calibrate_command(o);
+        if (*new_case) return new_command(o, kind);
+        if (*schema) return schema_command();
         return info_command(folder);
     });
 }

@@ -33,6 +33,9 @@ int resume_command(const Options& options);
 int generate_command(const Options& options);
 int check_command(const Options& options);
 int calibrate_command(const Options& options);
+int schema_command();
+/// `kind`: a test.kind or "calibrate".
+int new_command(const Options& options, const std::string& kind);
 int info_command(const std::string& folder);
 
 }  // namespace grainfrac

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/prepare.h"
 
+#include "experiment/plausibility.h"
 #include "io/input.h"
 #include "motion/time_step.h"
 
@@ -54,6 +55,19 @@ ChosenStep choose_time_step(const Case& c, const Model& model, const State& stat
         s.dt = c.control.time_step_safety * s.critical;
     }
     return s;
+}
+
+std::vector<std::string> plausibility_warnings(const Case& c, const Built& built, const ChosenStep& step)
+{
+    std::vector<InputProblem> found = implausible_input(c);
+    for (InputProblem& p : implausible_model(c, built, step.dt, step.critical)) found.push_back(std::move(p));
+    std::vector<std::string> lines;
+    const std::string_view severity = "warning: ";
+    for (const InputProblem& p : found) {
+        const std::string line = render_problems({p}, c.places, c.file, "warning");
+        lines.push_back(line.substr(severity.size(), line.size() - severity.size() - 1));
+    }
+    return lines;
 }
 
 std::string read_text(const std::string& file)

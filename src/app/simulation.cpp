@@ -269,6 +269,12 @@ private:
                                     "force of the bonds; raise test.relaxed, or hold what can move freely",
                                     path_->last().steps, path_->last().residual)};
             }
+            if (found == PullOutPath::Found::not_softening) {
+                return {
+                    exit_code::unstable,
+                    "unstable: with friction no state was found where the interface softens; lower test.relaxed, or "
+                    "use test.control = \"displacement\""};
+            }
             record_row(stage);
             spdlog::debug("equilibrium {}: {} steps, residual {:.2g}", state_.time, path_->last().steps,
                           path_->last().residual);

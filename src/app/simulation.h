@@ -31,6 +31,7 @@ struct PhaseTimes {
 /// What the run found out beyond its files. All of it goes into a checkpoint.
 struct RunRecord {
     std::vector<HistoryRow> rows;
+    std::vector<std::string> warnings;  ///< of input and outcome
     double peak_load = 0.0;             ///< [N]
     double peak_stress = 0.0;           ///< [Pa]
     double peak_time = 0.0;             ///< [s]
@@ -54,29 +55,30 @@ struct RunRecord {
     template <class Visit>
     void for_each_member(Visit&& visit)
     {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = *this;  // every one of them
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = *this;  // every one of them
         visit("rows", a);
-        visit("peak_load", b);
-        visit("peak_stress", c);
-        visit("peak_time", d);
-        visit("load_start", e);
-        visit("peak_displacement", f);
-        visit("kinetic_over_elastic", g);
-        visit("imbalance_at_peak", h);
-        visit("time_step", i);
-        visit("critical_step", j);
-        visit("limiter", k);
-        visit("history_interval", l);
-        visit("snapshot_interval", m);
-        visit("phases", n);
-        visit("first_momentum", o);
-        visit("last_momentum", p);
-        visit("cracks", q);
-        visit("splits", r);
-        visit("split_area", s);
-        visit("split_energy", t);
-        visit("bonding_energy", u);
-        visit("refused_splits", v);
+        visit("warnings", b);
+        visit("peak_load", c);
+        visit("peak_stress", d);
+        visit("peak_time", e);
+        visit("load_start", f);
+        visit("peak_displacement", g);
+        visit("kinetic_over_elastic", h);
+        visit("imbalance_at_peak", i);
+        visit("time_step", j);
+        visit("critical_step", k);
+        visit("limiter", l);
+        visit("history_interval", m);
+        visit("snapshot_interval", n);
+        visit("phases", o);
+        visit("first_momentum", p);
+        visit("last_momentum", q);
+        visit("cracks", r);
+        visit("splits", s);
+        visit("split_area", t);
+        visit("split_energy", u);
+        visit("bonding_energy", v);
+        visit("refused_splits", w);
     }
 };
 

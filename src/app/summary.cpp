@@ -167,7 +167,7 @@ std::vector<NamedResult> derived_results(const Experiment& e, const RunRecord& r
     const bool has_modulus = std::any_of(results.begin(), results.end(), [](const NamedResult& r) {
         return r.name.find("modulus") != std::string::npos;
     });
-    if (!has_modulus && e.specimen.stress_area > 0.0 && e.specimen.length > 0.0)
+    if (!has_modulus && !e.pull_out && e.specimen.stress_area > 0.0 && e.specimen.length > 0.0)
         results.push_back({"modulus_Pa", secant_modulus(curve)});
     return results;
 }
@@ -221,6 +221,7 @@ std::string summary_json(const RunFacts& facts, const Case& c, const Built& b, c
     j["device"] = facts.device;
     j["threads"] = facts.threads;
     j["exit"] = {{"code", ending.code}, {"reason", ending.reason}};
+    j["warnings"] = record.warnings;
     j["counts"] = counts(b);
     j["time_step"] = {{"dt_s", record.time_step},
                       {"stability_limit_s", record.critical_step},

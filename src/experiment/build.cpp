@@ -9,11 +9,13 @@
 #include "experiment/dcb.h"
 #include "experiment/drop.h"
 #include "experiment/experiment.h"
+#include "experiment/fibre_interface.h"
 #include "experiment/grips.h"
 #include "experiment/laws.h"
 #include "experiment/pre_cut.h"
 #include "experiment/precrack.h"
 #include "experiment/pull_out.h"
+#include "experiment/resources.h"
 #include "experiment/specimen.h"
 #include "experiment/sphere_bonds.h"
 #include "experiment/uniaxial.h"
@@ -167,6 +169,7 @@ void check_nothing_overlaps(const Case& c, const Model& model, State state)
 
 Built build(const Case& c, Device device)
 {
+    check_resources(c);
     Built built;
     Model& model = built.model;
     State& state = built.state;
@@ -213,8 +216,8 @@ Built build(const Case& c, Device device)
     bond_shared_faces(model, state, grains, c.simulation.seed, rule_of,
                       fibre_patches(c, model, state, spheres, first_sphere, table));
     pre_cut.finish(state);
-    finish_fibre_interfaces(c, state, spheres, first_sphere, table);
     bond_spheres(c, model, state, spheres, first_sphere, table);
+    finish_fibre_interfaces(c, model, state, table);
     check_bonds_exist(c, model, state, table);
     check_snap_back(model, state, table);
 
@@ -225,6 +228,7 @@ Built build(const Case& c, Device device)
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);
+    part_taken_fibres(c, model, table);
 
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     built.experiment.quasi_static_speed = quasi_static_speed(c, model);
@@ -261,6 +265,8 @@ Measurement measure(const Experiment& e, const Model&, const State& state)
         m.load = 0.5 * (push + other_push);
         if (m.load != 0.0) m.platen_imbalance = std::fabs(push - other_push) / std::fabs(m.load);
     }
+    if (e.pull_out && push != 0.0)
+        m.platen_imbalance = std::fabs(1.0 - pull_out_state(*e.pull_out, state).support_stress * s.stress_area / push);
     m.displacement -= s.start_displacement;
     if (s.length > 0.0) m.strain = m.displacement / s.length;
     if (s.stress_area > 0.0) m.stress = m.load / s.stress_area;

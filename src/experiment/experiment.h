@@ -85,22 +85,28 @@ struct NamedResult {
 struct PullOutState {
     double end_stress = 0.0;        ///< pull over the fibre's section [Pa]
     double exit_slip = 0.0;         ///< where the fibre leaves the matrix [m]
-    double end_displacement = 0.0;  ///< of the grip against the mean of the support [m]
+    double end_displacement = 0.0;  ///< of the fibre's end against the mean of the support [m]
     double embedded_slip = 0.0;     ///< at the embedded end [m]
     double mean_damage = 0.0;       ///< over the area of the interface [-]
+    double support_stress = 0.0;    ///< what the support bears, over the fibre's section [Pa]
 };
 
-/// What a pull-out test is about.
+/// What a pull-out test is about. Lengths along a fibre count from where its matrix begins.
 struct PullOut {
     int fibre_group = -1, matrix_group = -1;
     int grip_wall = -1, support_wall = -1;
+    int fibres = 1;
     Vec3 direction;                    ///< of the pull, along an axis [-]
-    double embedded_end = 0.0;         ///< along the direction [m]
-    double length = 0.0;               ///< L [m]
+    double length = 0.0;               ///< L within the matrix, mean of the fibres [m]
     double piece = 0.0;                ///< distance of the fibre's levels [m]
     double section = 0.0;              ///< of all fibres together [m^2]
     double young_modulus = 0.0;        ///< of the fibre [Pa]
+    double before_exit = 0.0;          ///< from the last level to where the fibre leaves the matrix [m]
+    double beyond_grip = 0.0;          ///< from the gripped bodies to the fibre's end [m]
     bool quasi_static = false;         ///< a path of equilibria, else time steps
+    std::vector<double> place{};       ///< of each body along its fibre; below 0: not of a fibre, or not tied [m]
+    std::vector<Vec3> along{};         ///< of each body of a fibre: its direction there [-]
+    std::vector<char> at_end{};        ///< of each body: 1 first of its fibre in the matrix, 2 last one [-]
     std::vector<PullOutState> path{};  ///< so far
 };
 
@@ -108,14 +114,15 @@ struct Experiment {
     std::string kind;
     Specimen specimen;
     std::vector<Stage> stages;
-    int reference_stage = -1;         ///< where it begins, length, section and displacement are taken anew; -1: never
-    double expected_duration = 0.0;   ///< guess from elasticity and strength, for output intervals and time left [s]
-    double wave_speed = 0.0;          ///< sqrt(E/rho) of the first material [m/s]
-    double quasi_static_speed = 0.0;  ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
-    double speed_of_each_wall = 0.0;  ///< that the test drives; 0: not known [m/s]
-    bool quasi_static = true;         ///< else inertia belongs to the test, and nothing warns of it
-    std::vector<NamedResult> facts;   ///< lengths that the test chose or found, for summary.json
-    std::optional<PullOut> pull_out;  ///< kind pull_out
+    int reference_stage = -1;           ///< where it begins, length, section and displacement are taken anew; -1: never
+    double expected_duration = 0.0;     ///< guess from elasticity and strength, for output intervals and time left [s]
+    double wave_speed = 0.0;            ///< sqrt(E/rho) of the first material [m/s]
+    double quasi_static_speed = 0.0;    ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
+    double speed_of_each_wall = 0.0;    ///< that the test drives; 0: not known [m/s]
+    bool quasi_static = true;           ///< else inertia belongs to the test, and nothing warns of it
+    std::vector<NamedResult> facts;     ///< lengths that the test chose or found, for summary.json
+    std::vector<std::string> warnings;  ///< what the user should know of the set-up
+    std::optional<PullOut> pull_out;    ///< kind pull_out
     /// What the curve says beyond its peak; nullptr: nothing.
     std::vector<NamedResult> (*results)(const Experiment&, const std::vector<CurvePoint>& curve) = nullptr;
 };

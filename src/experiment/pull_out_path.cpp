@@ -15,16 +15,21 @@ namespace {
 
 /// A state is on the failure surface within this share.
 constexpr double on_surface = 1e-3;
-/// Scalings to get there: one without friction, a few with it.
+/// Without friction one scaling gets there; what turned asks for another.
 constexpr int most_scalings = 12;
+/// With friction the grip moves on or back, as the last two moves say (secant rule), rather less: a move too far lets
+/// the friction act the other way. It is enough to get this near.
+constexpr double near_surface = 3e-3, first_share = 0.4, not_beyond = 0.8, most_overdone = 10.0;
+constexpr double most_move = 0.1;  ///< over what is there
+constexpr int most_moves = 100;
 /// Towards the end events take this share of what is left, until this little is left.
 constexpr double last_steps = 0.3, nothing_left = 2e-3;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
 constexpr int bisections = 60;
-/// After a slide: bits of way, each this share of it.
-constexpr int draws = 5;
-constexpr double draw = 0.01;
+/// After a slide the pressure changes with the stress, and the stress with it: this near it is enough.
+constexpr double same_pull = 1e-4;
+constexpr int most_draws = 30;
 
 /// Overshoot of the event that does `wanted` more mean damage, or breaks what is left.
 double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double wanted)
@@ -36,6 +41,16 @@ double overshoot(const Model& model, const State& state, const std::vector<int>&
         (mean_damage_at(model, state, interfaces, 1.0 + middle) < wanted ? low : high) = middle;
     }
     return high;
+}
+
+/// Whether something has begun to soften that has friction.
+bool rubs(const Model& model, const State& state, const std::vector<int>& interfaces)
+{
+    const InterfaceBonds& f = state.interfaces;
+    return std::any_of(interfaces.begin(), interfaces.end(), [&](int i) {
+        const InterfaceLaw law = model.interface_laws[f.law[i]];
+        return f.damage[i] > 0.0 && law.friction_cap(f.normal_stiffness[i], f.pressure_at_rest[i]) > 0.0;
+    });
 }
 
 /// Forces and energies of the state as it is.
@@ -86,19 +101,26 @@ void PullOutPath::scale(State& state, double factor)
     }
 }
 
-/// What the springs take up at once is the work of this move; the grip keeps its place while all comes to rest.
+/// The grip keeps its place while all comes to rest.
 void PullOutPath::shift_fibre(Model& model, State& state, double by)
 {
     Bodies& b = state.bodies;
     const Ledger before = energy_ledger(model, state);
     state.travel += std::fabs(by);
-    int grip = -1;
     for (int i = 0; i < b.size(); ++i) {
         if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
-        if (b.wall[i] == pull_out_.grip_wall) grip = i;
     }
+    book_move(model, state, before);
+}
+
+/// Of a move that the grip alone did not make: what springs take up at once and friction loses is its work.
+void PullOutPath::book_move(Model& model, State& state, const Ledger& before)
+{
     step_in_place(model, state);
     const Ledger after = energy_ledger(model, state);
+    Bodies& b = state.bodies;
+    int grip = 0;
+    while (b.wall[grip] != pull_out_.grip_wall) ++grip;
     b.external_work.at(grip) += before.residual() - after.residual();
     remember_grip(state);
 }
@@ -149,38 +171,82 @@ bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>&
     return last_.at_rest;
 }
 
-bool PullOutPath::to_softening(Model& model, State& state, const std::function<bool()>& interrupted)
+PullOutPath::Found PullOutPath::to_softening(Model& model, State& state, const std::function<bool()>& interrupted)
 {
     const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
+    if (rubs(model, state, interfaces)) return creep_to_softening(model, state, interfaces, interrupted);
     for (int k = 0; k < most_scalings; ++k) {
         const double factor = factor_to_softening(model, state, interfaces);
-        if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface) return true;
+        if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface) return Found::equilibrium;
         scale(state, factor);
-        if (!relax(model, state, interrupted)) return false;
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
     }
-    return true;
+    return Found::not_softening;
+}
+
+/// Friction remembers each way back: no further on than must be. A little too far, and the interface softens for it;
+/// back it goes where that would be another event's damage.
+PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
+                                                   const std::function<bool()>& interrupted)
+{
+    const double most_damage = mean_damage(state, interfaces) + settings_.damage_step;
+    double before = 0.0, moved = 0.0;  // what was missing at the last move, and the move, over what is there
+    for (int k = 0; k < most_moves; ++k) {
+        const double factor = factor_to_softening(model, state, interfaces), missing = factor - 1.0;
+        if (factor == 0.0 || std::fabs(missing) < near_surface) return Found::equilibrium;
+        if (missing < 0.0 && mean_damage_at(model, state, interfaces, 1.0) <= most_damage) {
+            soften(model, state, interfaces, 1.0);
+            before = 0.0;
+        } else {
+            double move = first_share * missing;
+            if (missing * before > 0.0) {
+                const double wanted = not_beyond * moved * missing / (before - missing);
+                move *= std::clamp(wanted / move, 1.0 / most_overdone, most_overdone);
+            }
+            move = std::clamp(move, -most_move, most_move);
+            before = missing;
+            moved = move;
+            const Ledger held = energy_ledger(model, state);
+            scale(state, 1.0 + move);
+            book_move(model, state, held);
+        }
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
+    }
+    return Found::not_softening;
+}
+
+/// All of it slides: moved as one the fibre stretches back against the friction, which must not mind.
+bool PullOutPath::draw(Model& model, State& state, const std::vector<int>& interfaces,
+                       const std::function<bool()>& interrupted)
+{
+    const PullOut& p = pull_out_;
+    double before = 0.0;
+    {
+        Sliding sliding(model, state, interfaces, settings_.slide);
+        for (int k = 0; k < most_draws; ++k) {
+            if (!relax(model, state, interrupted)) return false;
+            const double now = pull_out_state(p, state).end_stress;
+            if (std::fabs(now - before) <= same_pull * std::fabs(now)) break;
+            before = now;
+            sliding.renew();
+        }
+    }
+    return relax(model, state, interrupted);
 }
 
 PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::function<bool()>& interrupted)
 {
-    const auto rested = [&](bool ok) {
-        if (!ok) return Found::not_at_rest;
-        state.time += 1.0;
-        return Found::equilibrium;
+    const auto counted = [&](Found found) {
+        if (found == Found::equilibrium) state.time += 1.0;
+        return found;
     };
+    const auto rested = [&](bool ok) { return counted(ok ? Found::equilibrium : Found::not_at_rest); };
     const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
     if (mean_damage(state, interfaces) >= all_broken) {
         if (!settings_.slides) return Found::end;
         settings_.relax.fracture = true;
         shift_fibre(model, state, settings_.slide);
-        if (!relax(model, state, interrupted)) return Found::not_at_rest;
-        // Moved as one it goes back a little where it stretches, against the friction. Each further bit of way halves
-        // what is missing: its friction is nearer to the one that it is stretched for.
-        for (int k = 0; k < draws; ++k) {
-            shift_fibre(model, state, draw * settings_.slide);
-            if (!relax(model, state, interrupted)) return Found::not_at_rest;
-        }
-        return rested(true);
+        return rested(draw(model, state, interfaces, interrupted));
     }
     if (!settings_.by_damage) {
         const double now = pull_out_state(pull_out_, state).end_displacement;
@@ -195,7 +261,7 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         shift_fibre(model, state, settings_.shift);
         started_ = true;
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
-        return rested(to_softening(model, state, interrupted));
+        return counted(to_softening(model, state, interrupted));
     }
     // half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes
     const double now = mean_damage(state, interfaces), left = 1.0 - now;
@@ -207,12 +273,15 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     }
     const double wanted = now + std::min(settings_.damage_step, last_steps * left);
     if (factor_to_softening(model, state, interfaces) == 0.0) return Found::end;  // nothing can soften
-    const double reach = 1.0 + overshoot(model, state, interfaces, wanted), half = std::sqrt(reach);
-    scale(state, half);  // at rest still, but for friction and what turned
-    book_scaling(state, half);
+    const double reach = 1.0 + overshoot(model, state, interfaces, wanted);
+    const double half = rubs(model, state, interfaces) ? 1.0 : std::sqrt(reach);  // on and back would turn friction
+    if (half > 1.0) {
+        scale(state, half);  // at rest still, but for what turned
+        book_scaling(state, half);
+    }
     soften(model, state, interfaces, reach / half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;
-    return rested(to_softening(model, state, interrupted));
+    return counted(to_softening(model, state, interrupted));
 }
 
 }  // namespace grainfrac

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "experiment/pull_out.h"
+#include "motion/energy.h"
 #include "motion/relax.h"
 
 #include <functional>
@@ -29,7 +30,8 @@ class PullOutPath {
 public:
     PullOutPath(const PullOut& pull_out, const PathSettings& settings, const Model& model, const State& state);
 
-    enum class Found { equilibrium, end, not_at_rest };
+    /// not_softening: at rest, but no scaling brought it to where the interface softens.
+    enum class Found { equilibrium, end, not_at_rest, not_softening };
     /// The next state of the path. State::time goes on by one: it counts equilibria.
     Found next(Model& model, State& state, const std::function<bool()>& interrupted);
     const Relaxed& last() const { return last_; }
@@ -49,9 +51,13 @@ public:
 
 private:
     bool relax(Model& model, State& state, const std::function<bool()>& interrupted);
-    bool to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
+    Found to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
+    Found creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
+                             const std::function<bool()>& interrupted);
+    bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
+    void book_move(Model& model, State& state, const Ledger& before);
     void remember_grip(const State& state);
     void book_scaling(State& state, double factor);
     void book_work(State& state);

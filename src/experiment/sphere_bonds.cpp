@@ -3,15 +3,12 @@
 
 #include "experiment/lattice_stiffness.h"
 #include "experiment/specimen.h"
-#include "generate/fibre_surface.h"
 #include "model/random.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <map>
 #include <numbers>
 
@@ -212,55 +209,6 @@ private:
     std::map<const BondRule*, AutoStiffness> of_rule_;
 };
 
-/// Groups of a fibre and its matrix that an entry of [[bonds]] joins as an interface.
-struct FibrePair {
-    int fibre = -1, matrix = -1;
-    const BondRule* rule = nullptr;
-};
-
-std::vector<FibrePair> fibre_pairs(const Case& c, const BondTable& table)
-{
-    std::vector<FibrePair> found;
-    const int n = static_cast<int>(c.parts.size());
-    for (int a = 0; a < n; ++a) {
-        for (int b = 0; b < n; ++b) {
-            const BondRule* rule = a == b ? nullptr : table.rule_of(a, b);
-            const PartSpec& p = c.parts[static_cast<std::size_t>(a)];
-            const bool is_fibre = p.kind == "spheres" && (p.generator == "chain" || p.generator == "taken");
-            if (rule == nullptr || rule->kind != BondRule::Kind::fibre || !is_fibre) continue;
-            const PartSpec& other = c.parts[static_cast<std::size_t>(b)];
-            if (other.generator == "chain" && other.kind == "spheres") continue;
-            found.push_back({a, b, rule});
-        }
-    }
-    return found;
-}
-
-/// Chains of a group, as bodies.
-std::vector<FibreChain> chains_of(const Case& c, const std::vector<SphereSpec>& spheres, int first_body, int group)
-{
-    std::map<int, FibreChain> chains;
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const SphereSpec& s = spheres[i];
-        if (s.group != group || s.chain < 0) continue;
-        FibreChain& f = chains[s.chain];
-        f.nodes.push_back(first_body + static_cast<int>(i));
-        f.radius = c.parts[static_cast<std::size_t>(group)].fibre.radius.value_or(s.radius);
-    }
-    std::vector<FibreChain> all;
-    for (auto& [number, chain] : chains) {
-        const std::vector<int>& nodes = chain.nodes;
-        const auto at = [&](std::size_t k) {
-            return spheres[static_cast<std::size_t>(nodes[k] - first_body)].position;
-        };
-        double length = 0.0;
-        for (std::size_t k = 1; k < chain.nodes.size(); ++k) length += norm(at(k) - at(k - 1));
-        chain.piece = length / static_cast<double>(std::max<std::size_t>(1, chain.nodes.size() - 1));
-        all.push_back(std::move(chain));
-    }
-    return all;
-}
-
 }  // namespace
 
 void bond_spheres(const Case& c, Model& model, State& state, const std::vector<SphereSpec>& spheres, int first_body,
@@ -283,69 +231,6 @@ void bond_spheres(const Case& c, Model& model, State& state, const std::vector<S
                                            p.rule->weibull_area.value_or(sum / count));
         }
         add_sphere_bond(model, state, bond);
-    }
-}
-
-std::vector<SharedFace> fibre_patches(const Case& c, const Model& model, const State& state,
-                                      const std::vector<SphereSpec>& spheres, int first_body, const BondTable& table)
-{
-    std::vector<SharedFace> all;
-    const auto add = [&](std::vector<SharedFace> faces) {
-        all.insert(all.end(), std::make_move_iterator(faces.begin()), std::make_move_iterator(faces.end()));
-    };
-    for (const FibrePair& pair : fibre_pairs(c, table)) {
-        const PartSpec& part = c.parts[static_cast<std::size_t>(pair.fibre)];
-        if (part.generator == "chain") {
-            std::vector<char> is_matrix(static_cast<std::size_t>(state.bodies.size()), 0);
-            for (int i = 0; i < state.bodies.size(); ++i)
-                is_matrix[static_cast<std::size_t>(i)] = state.bodies.group[i] == pair.matrix ? 1 : 0;
-            for (const FibreChain& chain : chains_of(c, spheres, first_body, pair.fibre))
-                add(chain_patches(model, state, chain, is_matrix));
-            continue;
-        }
-        const BondSpec& spec = c.bonds[static_cast<std::size_t>(table.entry_of(*pair.rule))];
-        FibreLattice fibre;
-        fibre.axis = axis_vector(axis_of(part.region.axis));
-        fibre.center = part.region.center;
-        fibre.radius = 0.5 * part.region.diameter;
-        fibre.length = part.region.height;
-        fibre.radial = spec.frame == "surface";
-        fibre.same_level = spec.reach == "level";
-        std::vector<std::pair<int, int>> across;  // fibre, matrix
-        for (auto [i, j] : touching_spheres(spheres, spec.gap_factor)) {
-            if (spheres[static_cast<std::size_t>(i)].group != pair.fibre) std::swap(i, j);
-            if (spheres[static_cast<std::size_t>(i)].group == pair.fibre &&
-                spheres[static_cast<std::size_t>(j)].group == pair.matrix)
-                across.emplace_back(first_body + i, first_body + j);
-        }
-        add(lattice_patches(state, fibre, across));
-    }
-    return all;
-}
-
-void finish_fibre_interfaces(const Case& c, State& state, const std::vector<SphereSpec>& spheres, int first_body,
-                             const BondTable& table)
-{
-    InterfaceBonds& f = state.interfaces;
-    for (const FibrePair& pair : fibre_pairs(c, table)) {
-        const BondSpec& spec = c.bonds[static_cast<std::size_t>(table.entry_of(*pair.rule))];
-        const PartSpec& part = c.parts[static_cast<std::size_t>(pair.fibre)];
-        std::map<int, double> way;  // from the embedded end
-        for (const FibreChain& chain : chains_of(c, spheres, first_body, pair.fibre)) {
-            for (std::size_t k = 0; k < chain.nodes.size(); ++k)
-                way[chain.nodes[k]] = (static_cast<double>(k) + 0.5) * chain.piece;
-        }
-        const int axis = axis_of(part.region.axis);
-        for (int i = 0; i < f.size(); ++i) {
-            if (f.law[i] != pair.rule->law) continue;
-            const int fibre = state.bodies.group[f.a[i]] == pair.fibre ? f.a[i] : f.b[i];
-            f.pressure.at(i) = spec.radial_pressure;
-            f.opening_limit.at(i) = std::numeric_limits<double>::max();  // the matrix stays beside the fibre
-            const auto node = way.find(fibre);
-            f.slip_limit.at(i) = node != way.end() ? node->second
-                                                   : state.bodies.position[fibre][axis] - part.region.center[axis] +
-                                                         0.5 * part.region.height;
-        }
     }
 }
 

@@ -10,6 +10,9 @@ namespace grainfrac {
 
 namespace {
 
+/// A friction spring is that much longer than the way that it is to go back, so that it loses one in as many.
+constexpr double soft_springs = 1e4;
+
 /// Calls visit(point index, jump, state of the point) for the points of an interface that have not yet broken.
 template <class Visit>
 void for_each_live_point(const State& state, int i, Visit&& visit)
@@ -116,6 +119,52 @@ void soften(const Model& model, State& state, const std::vector<int>& interfaces
         f.inserted_work.at(i) += work - released;
         f.shear_share.at(i) += sheared;
         if (started && f.first_damage_time[i] < 0.0) f.first_damage_time.at(i) = state.time;
+    }
+}
+
+Sliding::Sliding(const Model& model, State& state, const std::vector<int>& interfaces, double way)
+    : model_(model), state_(state), interfaces_(interfaces), way_(way)
+{
+    for (const int i : interfaces) stiffness_.push_back(state.interfaces.shear_stiffness[i]);
+    set(true);
+}
+
+Sliding::~Sliding()
+{
+    set(false);
+}
+
+void Sliding::renew()
+{
+    set(true);
+}
+
+void Sliding::set(bool soft)
+{
+    InterfaceBonds& f = state_.interfaces;
+    InterfacePoints& p = state_.points;
+    const Bodies& b = state_.bodies;
+    for (std::size_t k = 0; k < interfaces_.size(); ++k) {
+        const int i = interfaces_[k];
+        const InterfaceLaw law = model_.interface_laws[f.law[i]];
+        const InterfaceFrame frame(b.orientation[f.a[i]], b.orientation[f.b[i]],
+                                   b.position[f.b[i]] - b.position[f.a[i]], f.normal_a[i], f.normal_b[i],
+                                   f.tangent_a[i], f.tangent_b[i]);
+        const double was = f.shear_stiffness[i];
+        double is = stiffness_[k];
+        for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
+            if (f.retired[i] != 0 || p.damage[q] < 1.0) continue;
+            const InterfaceJump d =
+                frame.in_frame(frame.between + frame.rotation_b * p.position_b[q] - frame.rotation_a * p.position_a[q]);
+            const double s1 = d.s1 - p.slip[q].x, s2 = d.s2 - p.slip[q].y, length = std::sqrt(s1 * s1 + s2 * s2);
+            const double cap = law.friction_cap(std::fmax(0.0, -f.normal_stiffness[i] * d.n), f.pressure[i]);
+            if (length == 0.0 || cap == 0.0) continue;
+            if (soft) is = cap / (way_ * soft_springs);
+            const double now = soft ? cap / is : was * length / is;
+            p.slip.at(q) = {d.s1 - now / length * s1, d.s2 - now / length * s2};
+            f.friction_work.at(i) += 0.5 * p.weight[q] * (was * length * length - is * now * now);
+        }
+        f.shear_stiffness.at(i) = is;
     }
 }
 

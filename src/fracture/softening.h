@@ -23,4 +23,28 @@ double mean_damage_at(const Model& model, const State& state, const std::vector<
 /// does not count as fracture energy goes to inserted work, so that the account closes. Call bond_forces afterwards.
 void soften(const Model& model, State& state, const std::vector<int>& interfaces, double reach);
 
+/// What slides goes on sliding while the rest comes to rest: the friction of each broken point is put to its cap, along
+/// the way that it has gone, by a spring so soft that `way` [m] of going back hardly unloads it. The friction work has
+/// the difference of what the springs hold.
+class Sliding {
+public:
+    Sliding(const Model& model, State& state, const std::vector<int>& interfaces, double way);
+    /// The springs of the law again, under the same friction.
+    ~Sliding();
+    Sliding(const Sliding&) = delete;
+    Sliding& operator=(const Sliding&) = delete;
+
+    /// To the cap that is now, after the pressure has changed.
+    void renew();
+
+private:
+    void set(bool soft);
+
+    const Model& model_;
+    State& state_;
+    const std::vector<int>& interfaces_;
+    double way_;
+    std::vector<double> stiffness_;  // of the law, of each of `interfaces`
+};
+
 }  // namespace grainfrac

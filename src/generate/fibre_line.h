@@ -10,8 +10,15 @@ namespace grainfrac {
 
 /// Spheres at equal arc length, from the first to the last.
 struct FibreNodes {
-    std::vector<Vec3> position;  ///< [m]
-    double piece = 0.0;          ///< arc length between two [m]
+    std::vector<Vec3> position;        ///< [m]
+    double piece = 0.0;                ///< arc length between two [m]
+    double before = 0.0, after = 0.0;  ///< fibre beyond the first and the last one, half a piece at most [m]
+
+    /// Length of fibre that a node stands for: half-way to its neighbours, and to where the fibre ends [m].
+    double length_of(std::size_t k) const
+    {
+        return (k == 0 ? before : 0.5 * piece) + (k + 1 == position.size() ? after : 0.5 * piece);
+    }
 };
 
 /// `spacing` is adjusted so that whole pieces fit. Throws InputError (keys below the fibre: "spacing", "wavelength",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generate/fibre_surface.h"
 
-#include "geometry/gjk.h"
+#include "generate/fibre_in_grains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,16 @@ namespace grainfrac {
 
 namespace {
 
-/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one: with more, the fibre
-/// would be tied to spheres that lie behind others.
-constexpr double ring_width = 0.35;
-/// The same for grains, over their distance from the axis: faces of one hole are rarely at one distance.
-constexpr double face_ring_width = 0.25;
+/// Spheres count as the innermost ring up to this share of their diameter beyond the nearest one. What is farther from
+/// the axis moves less with the fibre, by tau a ln(r/a)/G: patches at different distances bear different shear. Where
+/// that leaves more than `widest_gap` without a sphere, as in packings without order, up to the wider share; with more
+/// the fibre would be tied to spheres that lie behind others.
+constexpr double ring_width = 0.2, wide_ring = 0.35;
+constexpr double widest_gap = 2.0 * std::numbers::pi / 3.0 * (1.0 + 1e-6);  // [rad]
 /// Centres whose line is tilted less than this against the plane across the fibre are side by side.
 constexpr double side_by_side = 1e-6;
 
-/// A body beside a node.
+/// A sphere of the matrix beside a node.
 struct Neighbour {
     int body = -1;
     Vec3 place;             // of the patch [m]
@@ -29,13 +30,9 @@ struct Neighbour {
     double angle = 0.0;     // about it [rad]
     double share = 0.0;     // of the circle [rad]
     double width = 0.0;     // of the ring that it may count to [m]
+    double size = 0.0;      // of the sphere [m]
+    double along = 0.0;     // the fibre, from the node [m]
 };
-
-Vec3 tangent_at(const State& state, const std::vector<int>& nodes, std::size_t k)
-{
-    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
-    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
-}
 
 /// Rectangle about `center`, its normal from a to b.
 std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& along, double length, double width)
@@ -44,8 +41,16 @@ std::vector<Vec3> rectangle(const Vec3& center, const Vec3& normal, const Vec3& 
     return {center - u - v, center + u - v, center + u + v, center - u + v};
 }
 
-SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
-                 double width)
+}  // namespace
+
+Vec3 fibre_tangent(const State& state, const std::vector<int>& nodes, std::size_t k)
+{
+    const std::size_t before = k > 0 ? k - 1 : k, after = k + 1 < nodes.size() ? k + 1 : k;
+    return normalized(state.bodies.position[nodes[after]] - state.bodies.position[nodes[before]]);
+}
+
+SharedFace fibre_patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
+                       double width)
 {
     SharedFace f;
     f.a = std::min(fibre, matrix);
@@ -55,6 +60,8 @@ SharedFace patch(int fibre, int matrix, const Vec3& center, const Vec3& outward,
     f.polygon = rectangle(center, f.normal, square, length, width);
     return f;
 }
+
+namespace {
 
 class Ring {
 public:
@@ -75,71 +82,112 @@ public:
                 nearest = k;
             }
         }
-        add(nearest, body, x, ring_width * 2.0 * model_.shapes.radius[state_.bodies.shape[body]], true);
-    }
-
-    void add_grain(int body)
-    {
-        const ShapesView shapes = view(model_.shapes, Device::cpu);
-        const std::int32_t s = state_.bodies.shape[body];
-        const PlacedCore core{shapes.vertices.data + shapes.vertex_begin[s],
-                              shapes.vertex_begin[s + 1] - shapes.vertex_begin[s], state_.bodies.position[body],
-                              state_.bodies.orientation[body]};
-        const Vec3 origin{};
-        for (std::size_t k = 0; k < chain_.nodes.size(); ++k) {
-            const Vec3 node = state_.bodies.position[chain_.nodes[k]];
-            if (norm(state_.bodies.position[body] - node) > shapes.bounding_radius[s] + 4.0 * chain_.radius) continue;
-            const PlacedCore point{&origin, 1, node, Quat{}};
-            const ClosestPoints near = closest_points(point, core, state_.bodies.position[body] - node);
-            if (near.distance <= 0.0) continue;
-            const Vec3 surface = near.b - (shapes.radius[s] / near.distance) * (near.b - near.a);
-            add(k, body, surface, face_ring_width * near.distance, false);
-        }
+        const double size = 2.0 * model_.shapes.radius[state_.bodies.shape[body]];
+        add(nearest, body, x, wide_ring * size, size);
     }
 
     std::vector<SharedFace> patches()
     {
-        std::vector<SharedFace> faces;
-        for (std::size_t k = 0; k < around_.size(); ++k) {
-            std::vector<Neighbour>& ring = around_[k];
+        for (std::vector<Neighbour>& ring : around_) {
             if (ring.empty()) continue;
             double least = 1e300;
             for (const Neighbour& n : ring) least = std::min(least, n.distance);
-            std::erase_if(ring, [&](const Neighbour& n) { return n.distance > least + n.width; });
+            const auto within = [&](double share) {
+                std::vector<Neighbour> near;
+                for (const Neighbour& n : ring) {
+                    if (n.distance <= least + share * n.width) near.push_back(n);
+                }
+                return near;
+            };
+            std::vector<Neighbour> near = within(ring_width / wide_ring);
+            ring = within(share_circle(near) > widest_gap ? 1.0 : ring_width / wide_ring);
             share_circle(ring);
-            for (const Neighbour& n : ring) {
-                faces.push_back(patch(chain_.nodes[k], n.body, n.place, n.outward, tangent_at(state_, chain_.nodes, k),
-                                      chain_.piece, n.share * chain_.radius));
+        }
+        const std::vector<double> length = covered();
+        std::vector<SharedFace> faces;
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            for (const Neighbour& n : around_[k]) {
+                faces.push_back(fibre_patch(chain_.nodes[k], n.body, n.place, n.outward,
+                                            fibre_tangent(state_, chain_.nodes, k), length[k],
+                                            n.share * chain_.radius));
             }
         }
         return faces;
     }
 
 private:
-    void add(std::size_t k, int body, const Vec3& place, double width, bool is_sphere)
+    void add(std::size_t k, int body, const Vec3& place, double width, double size)
     {
-        const Vec3 t = tangent_at(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
-        if (std::fabs(dot(from, t)) > 0.5 * chain_.piece * (1.0 + 1e-9)) return;
+        const Vec3 t = fibre_tangent(state_, chain_.nodes, k), from = place - state_.bodies.position[chain_.nodes[k]];
+        const double along = dot(from, t), slack = 1e-9 * chain_.whole;
+        if (along < -chain_.reach_back(k) - slack || along > chain_.reach_on(k) + slack) return;
         const Vec3 across = tangential(from, t);
         const double r = norm(across);
-        const double farthest = chain_.radius + (is_sphere ? width / ring_width : chain_.radius);
-        if (r == 0.0 || r > farthest) return;
+        if (r == 0.0 || r > chain_.radius + size) return;
         const Vec3 e1 = any_perpendicular(t), e2 = cross(t, e1);
-        around_[k].push_back(
-            {body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0, width});
+        around_[k].push_back({body, place, across * (1.0 / r), r, std::atan2(dot(across, e2), dot(across, e1)), 0.0,
+                              width, size, along});
     }
 
-    /// Half the way to the next on either side.
-    static void share_circle(std::vector<Neighbour>& ring)
+    /// Length of fibre of each node's patches: half-way to the next node that has some; beyond the last one as far as
+    /// its spheres reach, a layer half its distance to the next.
+    std::vector<double> covered() const
+    {
+        std::vector<std::size_t> tied;  // nodes that have some
+        for (std::size_t k = 0; k < around_.size(); ++k) {
+            if (!around_[k].empty()) tied.push_back(k);
+        }
+        std::vector<double> gap(tied.size(), 0.0);  // to the next one; 0: too far, the matrix has a hole there
+        double sum = 0.0;
+        int layers = 0;
+        for (std::size_t i = 0; i + 1 < tied.size(); ++i) {
+            const std::size_t k = tied[i], l = tied[i + 1];
+            const double size = std::max(around_[k].front().size, around_[l].front().size);
+            const double way = chain_.way[l] - chain_.way[k];
+            if (way > (chain_.reach_on(k) + chain_.reach_back(l) + size) * (1.0 + 1e-9)) continue;
+            gap[i] = way;
+            sum += way + middle(around_[l]) - middle(around_[k]);
+            ++layers;
+        }
+        std::vector<double> length(around_.size(), 0.0);
+        for (std::size_t i = 0; i < tied.size(); ++i) {
+            const std::size_t k = tied[i];
+            const std::vector<Neighbour>& ring = around_[k];
+            const auto beyond = [&](double place, double left) {
+                const double reach = 0.5 * ring.front().size;
+                return std::clamp(place + (layers > 0 ? std::min(reach, 0.5 * sum / layers) : reach), 0.0, left);
+            };
+            const bool goes_back = i > 0 && gap[i - 1] > 0.0, goes_on = gap[i] > 0.0;
+            length[k] = (goes_back ? 0.5 * gap[i - 1] : beyond(-middle(ring), chain_.way[k])) +
+                        (goes_on ? 0.5 * gap[i] : beyond(middle(ring), chain_.whole - chain_.way[k]));
+        }
+        return length;
+    }
+
+    /// Place of a ring along the fibre, from its node [m].
+    static double middle(const std::vector<Neighbour>& ring)
+    {
+        double sum = 0.0;
+        for (const Neighbour& n : ring) sum += n.along;
+        return sum / static_cast<double>(ring.size());
+    }
+
+    /// Half the way to the next on either side; returns the widest gap [rad].
+    static double share_circle(std::vector<Neighbour>& ring)
     {
         constexpr double turn = 2.0 * std::numbers::pi;
         std::sort(ring.begin(), ring.end(), [](const Neighbour& x, const Neighbour& y) { return x.angle < y.angle; });
         const std::size_t n = ring.size();
+        double widest = n < 2 ? turn : 0.0;
         for (std::size_t i = 0; i < n; ++i) {
+            double next = ring[(i + 1) % n].angle - ring[i].angle;
+            if (next <= 0.0) next += turn;
+            widest = std::max(widest, next);
             double gap = ring[(i + 1) % n].angle - ring[(i + n - 1) % n].angle;
             if (gap <= 0.0) gap += turn;
             ring[i].share = n < 3 ? turn / static_cast<double>(n) : 0.5 * gap;
         }
+        return widest;
     }
 
     const Model& model_;
@@ -154,14 +202,18 @@ std::vector<SharedFace> chain_patches(const Model& model, const State& state, co
                                       const std::vector<char>& is_matrix)
 {
     Ring ring(model, state, chain);
+    std::vector<int> grains;
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (is_matrix[static_cast<std::size_t>(i)] == 0) continue;
         if (is_sphere(model, state.bodies, i))
             ring.add_sphere(i);
         else
-            ring.add_grain(i);
+            grains.push_back(i);
     }
-    return ring.patches();
+    std::vector<SharedFace> faces = ring.patches();
+    const std::vector<SharedFace> of_grains = grain_patches(model, state, chain, grains);
+    faces.insert(faces.end(), of_grains.begin(), of_grains.end());
+    return faces;
 }
 
 std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& fibre,
@@ -172,9 +224,10 @@ std::vector<SharedFace> lattice_patches(const State& state, const FibreLattice& 
     for (const auto& [inner, outer] : pairs) {
         const Vec3 x = state.bodies.position[inner], y = state.bodies.position[outer], branch = normalized(y - x);
         if (fibre.same_level && std::fabs(dot(branch, fibre.axis)) > side_by_side) continue;
+        if (norm(from_axis(outer)) <= fibre.radius) continue;  // before the fibre's end, not beside it
         const Vec3 middle = 0.5 * (x + y);
         const Vec3 radial = normalized(from_axis(inner) + from_axis(outer));
-        faces.push_back(patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
+        faces.push_back(fibre_patch(inner, outer, middle, fibre.radial ? radial : branch, fibre.axis, 1.0, 1.0));
     }
     const double area = 2.0 * std::numbers::pi * fibre.radius * fibre.length / static_cast<double>(faces.size());
     for (SharedFace& f : faces) {

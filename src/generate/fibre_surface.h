@@ -14,14 +14,27 @@ namespace grainfrac {
 
 /// A chain of nodes in the matrix.
 struct FibreChain {
-    std::vector<int> nodes;  ///< bodies, from the embedded end to the loaded one
-    double radius = 0.0;     ///< a [m]
-    double piece = 0.0;      ///< length of fibre that a node stands for [m]
+    std::vector<int> nodes;   ///< bodies, from the embedded end to the loaded one
+    std::vector<double> way;  ///< from the end of the fibre to each of them, along it [m]
+    double whole = 0.0;       ///< length of the fibre [m]
+    double radius = 0.0;      ///< a [m]
+
+    /// Half-way to the neighbours, to the end of the fibre at the first and last one [m].
+    double reach_back(std::size_t k) const { return k == 0 ? way[0] : 0.5 * (way[k] - way[k - 1]); }
+    double reach_on(std::size_t k) const { return k + 1 == way.size() ? whole - way[k] : 0.5 * (way[k + 1] - way[k]); }
 };
 
+/// Direction of the fibre at a node, towards the loaded end.
+Vec3 fibre_tangent(const State& state, const std::vector<int>& nodes, std::size_t k);
+
+/// A rectangle of `length` along the fibre and `width` across about `center`, between a node and a body of the matrix.
+SharedFace fibre_patch(int fibre, int matrix, const Vec3& center, const Vec3& outward, const Vec3& along, double length,
+                       double width);
+
 /// One patch for each body of the matrix that a node sees beside it: the nearest spheres around it, with the patch at
-/// their centres, and the nearest grains, with the patch where they are nearest. A patch is as wide as its share of the
-/// circle and as long as the node's piece.
+/// their centres, and the grains around it (grain_patches). A patch of a sphere is as wide as its share of the circle
+/// and as long as the fibre half-way to the next nodes that have some, so that the patches cover what lies in the
+/// matrix.
 std::vector<SharedFace> chain_patches(const Model& model, const State& state, const FibreChain& chain,
                                       const std::vector<char>& is_matrix);
 

@@ -83,15 +83,16 @@ struct Site {
 };
 
 /// The in-plane lattice: x = sqrt(3) r i (odd rows) or sqrt(3) r (i - 1/2) (even rows), y = r + 3/2 r (j - 1) from the
-/// lower corner of the bounding box.
+/// lower corner of the bounding box, or moved so that a site of even layers lies on the region's centre.
 struct Lattice {
     double side, pitch, row_pitch;
     Vec3 corner;
-    Vec3 shift;  ///< of odd layers
+    Vec3 shift;   ///< of odd layers
+    Vec3 offset;  ///< of all layers
 
     Vec3 center(const Site& s, int layer, double z) const
     {
-        const Vec3 o = (layer & 1) ? shift : Vec3{};
+        const Vec3 o = ((layer & 1) ? shift : Vec3{}) + offset;
         return {corner.x + o.x + pitch * ((s.row & 1) ? s.column : s.column - 0.5),
                 corner.y + o.y + side + row_pitch * (s.row - 1), z};
     }
@@ -106,6 +107,13 @@ Lattice make_lattice(const HexagonalPrismSpec& spec)
     l.corner = spec.region.center - 0.5 * bounding_lengths(spec.region);
     if (spec.stacking != Stacking::columnar) l.shift.x = 0.5 * l.pitch;
     if (spec.stacking == Stacking::hollow) l.shift.y = 0.5 * spec.side;
+    if (spec.centered) {
+        const Vec3 in_box = spec.region.center - l.corner;
+        const int row = 1 + static_cast<int>(std::lround((in_box.y - l.side) / l.row_pitch));
+        const Vec3 first = l.center({row, 0}, 0, spec.region.center.z);
+        const int column = static_cast<int>(std::lround((spec.region.center.x - first.x) / l.pitch));
+        l.offset = spec.region.center - l.center({row, column}, 0, spec.region.center.z);
+    }
     return l;
 }
 
@@ -148,7 +156,7 @@ std::vector<LatticeCell> whole_cells(const HexagonalPrismSpec& spec)
     const Lattice l = make_lattice(spec);
     const Vec3 lengths = bounding_lengths(spec.region);
     const LatticeCounts n = nominal_counts(lengths, spec.side, spec.thickness);
-    const bool nominal = spec.lattice == LatticeMode::nominal;
+    const bool nominal = spec.lattice == LatticeMode::nominal && !spec.centered;
     const bool all = nominal && spec.region.shape == Region::Shape::box;
     const Window w = nominal ? Window{1, n.rows, 1, n.columns} : window_around(l, l.corner, l.corner + lengths);
     std::vector<LatticeCell> cells;

@@ -33,6 +33,7 @@ struct HexagonalPrismSpec {
     Stacking stacking = Stacking::columnar;
     LatticeMode lattice = LatticeMode::nominal;
     BoundaryMode boundary = BoundaryMode::keep;
+    bool centered = false;          ///< a prism of the first layer on the region's centre; rows from the window then
     double sliver_fraction = 0.05;  ///< cut cells below this share of a whole cell give their space to their neighbours
     Region region;
 };

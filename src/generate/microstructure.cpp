@@ -37,6 +37,7 @@ HexagonalPrismSpec prism_spec(const PartSpec& p)
     s.lattice = s.boundary == BoundaryMode::cut
                     ? LatticeMode::fill
                     : (p.lattice == "contained" ? LatticeMode::contained : LatticeMode::nominal);
+    s.centered = p.centered;
     s.sliver_fraction = p.sliver_fraction;
     const bool round = p.region.shape == "cylinder" || p.region.shape == "disc";
     s.region.shape = round ? Region::Shape::cylinder : Region::Shape::box;

@@ -34,13 +34,25 @@ Vec3 vector_from(const json& j, const char* what)
     return {finite_number(j[0], what), finite_number(j[1], what), finite_number(j[2], what)};
 }
 
+/// Indices of a face's vertices.
+std::vector<int> corners_from(const json& j, std::size_t vertices)
+{
+    std::vector<int> corners;
+    for (const json& c : j) {
+        if (!c.is_number_integer() || c.get<double>() < 0.0 || c.get<double>() >= static_cast<double>(vertices))
+            throw std::runtime_error(fmt::format("faces: numbers of vertices expected, 0 to {}", vertices - 1));
+        corners.push_back(c.get<int>());
+    }
+    return corners;
+}
+
 GrainSpec grain_from(const json& j)
 {
     GrainSpec g;
     std::vector<Vec3> vertices;
     std::vector<std::vector<int>> faces;
     for (const json& v : j.at("vertices")) vertices.push_back(vector_from(v, "vertices"));
-    for (const json& f : j.at("faces")) faces.push_back(f.get<std::vector<int>>());
+    for (const json& f : j.at("faces")) faces.push_back(corners_from(f, vertices.size()));
     g.shape = make_polyhedron(std::move(vertices), std::move(faces));
     if (const std::string why = why_not_convex(g.shape); !why.empty()) throw std::runtime_error(why);
     g.site = vector_from(j.at("site"), "site");

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 
 namespace grainfrac {
 
@@ -45,7 +46,8 @@ SphereSpec prototype(const Case& c, std::size_t part)
 }
 
 /// A straight fibre along the c axis of the lattice that it lies in, without a spacing of its own, has a node at each
-/// of its layers: bonds of its surface then measure slip and nothing else. Empty where that is not so.
+/// of its layers: bonds of its surface then measure slip and nothing else. It goes on with the same spacing where it is
+/// outside. Empty where that is not so.
 FibreNodes nodes_of_layers(const PartSpec& p, const PartSpec& host_part, const Spheres& host)
 {
     const FibreSpec& f = p.fibre;
@@ -63,12 +65,20 @@ FibreNodes nodes_of_layers(const PartSpec& p, const PartSpec& host_part, const S
         layers.end());
     if (way[axis] < 0.0) std::reverse(layers.begin(), layers.end());
     FibreNodes nodes;
+    const double length = norm(way);
+    std::vector<double> places;  // from the begin of the fibre [m]
     for (const double z : layers) {
-        const double share = (z - f.from[axis]) / way[axis];
-        if (share >= -round_off && share <= 1.0 + round_off) nodes.position.push_back(f.from + share * way);
+        const double s = (z - f.from[axis]) * length / way[axis];
+        if (s >= -round_off && s <= length + round_off) places.push_back(s);
     }
-    if (nodes.position.size() < 2) return {};
-    nodes.piece = norm(nodes.position[1] - nodes.position[0]);
+    if (places.size() < 2) return {};
+    nodes.piece = places[1] - places[0];
+    check_count("to", length / nodes.piece);
+    while (places.front() - nodes.piece >= -round_off) places.insert(places.begin(), places.front() - nodes.piece);
+    while (places.back() + nodes.piece <= length + round_off) places.push_back(places.back() + nodes.piece);
+    for (const double s : places) nodes.position.push_back(f.from + (s / length) * way);
+    nodes.before = std::clamp(places.front(), 0.0, 0.5 * nodes.piece);
+    nodes.after = std::clamp(length - places.back(), 0.0, 0.5 * nodes.piece);
     return nodes;
 }
 
@@ -77,12 +87,12 @@ Spheres chain_spheres(const PartSpec& p, const SphereSpec& model, const FibreNod
 {
     SphereSpec s = model;
     s.section_radius = p.fibre.radius.value_or(0.0);
-    s.piece = p.fibre.radius ? nodes.piece : 0.0;
     Spheres all;
     for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
         s.chain = chains++;
-        for (const Vec3& x : nodes.position) {
-            s.position = copy == 0 ? x : x + p.copies[copy - 1];
+        for (std::size_t k = 0; k < nodes.position.size(); ++k) {
+            s.position = nodes.position[k] + (copy == 0 ? Vec3{} : p.copies[copy - 1]);
+            s.piece = nodes.length_of(k);
             all.push_back(s);
         }
     }
@@ -166,6 +176,63 @@ bool reaches_into(const Spheres& nodes, std::size_t begin, std::size_t end, cons
                        });
 }
 
+std::string key_of_copy(std::size_t copy)
+{
+    return copy == 0 ? std::string("fibre") : fmt::format("copies[{}]", copy - 1);
+}
+
+double fibre_radius(const PartSpec& p)
+{
+    return p.fibre.radius.value_or(0.5 * p.diameter);
+}
+
+/// Where a fibre is in its matrix, all of its section is; it may stick out at its ends.
+void check_section_inside(const PartSpec& p, const PartSpec& host, const Spheres& nodes)
+{
+    const SphereRegion region(host.region);
+    if (norm2(region.half) == 0.0) return;  // of a file
+    constexpr int points = 16, few = 2;     // on the circle
+    const std::size_t links = nodes.size() / (p.copies.size() + 1);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i % links == 0 || i % links + 1 == links) continue;
+        const Vec3 x = nodes[i].position, before = nodes[i - 1].position, after = nodes[i + 1].position;
+        if (!region.contains(x) || !region.contains(before) || !region.contains(after)) continue;
+        const Vec3 t = normalized(after - before), u = any_perpendicular(t), v = cross(t, u);
+        int outside = 0;
+        for (int k = 0; k < points; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / points;
+            outside += region.contains(x + fibre_radius(p) * (std::cos(angle) * u + std::sin(angle) * v)) ? 0 : 1;
+        }
+        if (outside > few) {
+            throw InputError(key_of_copy(i / links),
+                             fmt::format("this fibre is not wholly inside \"{}\": at ({:.6g}, {:.6g}, {:.6g}) m its "
+                                         "radius of {:.6g} m reaches out of the region",
+                                         host.name, x.x, x.y, x.z, fibre_radius(p)));
+        }
+    }
+}
+
+/// Fibres of one part do not run through each other.
+void check_copies_apart(const PartSpec& p, const Spheres& nodes)
+{
+    const std::vector<Vec3> line = fibre_polyline(p.fibre);
+    const std::size_t links = nodes.size() / (p.copies.size() + 1);
+    for (std::size_t copy = 1; copy <= p.copies.size(); ++copy) {
+        for (std::size_t other = 0; other < copy; ++other) {
+            const Vec3 shift = p.copies[copy - 1] - (other == 0 ? Vec3{} : p.copies[other - 1]);
+            for (std::size_t k = 0; k < links; ++k) {
+                const double apart = distance_to_polyline(nodes[k].position + shift, line);
+                if (apart >= 2.0 * fibre_radius(p) * (1.0 - 1e-9)) continue;
+                throw InputError(key_of_copy(copy),
+                                 fmt::format("this fibre runs through {}: their axes are {:.4g} m apart, and must be "
+                                             "{:.4g} m or more",
+                                             other == 0 ? std::string("the first one") : key_of_copy(other), apart,
+                                             2.0 * fibre_radius(p)));
+            }
+        }
+    }
+}
+
 /// The host's spheres whose centre is nearer to the line of a chain than the fibre's radius go.
 void make_room(const PartSpec& p, const Spheres& nodes, Spheres& host)
 {
@@ -177,15 +244,15 @@ void make_room(const PartSpec& p, const Spheres& nodes, Spheres& host)
             high[k] = std::max(high[k], s.position[k] + s.radius);
         }
     }
-    const double radius = p.fibre.radius.value_or(0.5 * p.diameter);
+    const double radius = fibre_radius(p);
     const std::vector<Vec3> line = fibre_polyline(p.fibre);
     const std::size_t links = nodes.size() / (p.copies.size() + 1);
     for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
         if (!reaches_into(nodes, copy * links, (copy + 1) * links, low, high)) {
-            const std::string key = copy == 0 ? std::string("fibre") : fmt::format("copies[{}]", copy - 1);
-            throw InputError(key, fmt::format("this fibre is outside of \"{}\", whose spheres lie between ({:.6g}, "
-                                              "{:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) m",
-                                              p.inside, low.x, low.y, low.z, high.x, high.y, high.z));
+            throw InputError(key_of_copy(copy),
+                             fmt::format("this fibre is outside of \"{}\", whose spheres lie between ({:.6g}, "
+                                         "{:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) m",
+                                         p.inside, low.x, low.y, low.z, high.x, high.y, high.z));
         }
         const Vec3 shift = copy == 0 ? Vec3{} : p.copies[copy - 1];
         // what lies on the fibre's surface, as sites of a lattice do, stays whatever the round-off
@@ -228,8 +295,11 @@ std::vector<SphereSpec> generate_spheres(const Case& c)
         if (p.generator == "taken") of_part[k] = take(p, prototype(c, k), of_part[part_named(c, p.inside)]);
     });
     for_parts([&](std::size_t k, const PartSpec& p) {
-        if (p.generator == "chain" && !p.inside.empty() && c.parts[part_named(c, p.inside)].kind == "spheres")
-            make_room(p, of_part[k], of_part[part_named(c, p.inside)]);
+        if (p.generator != "chain" || p.inside.empty()) return;
+        const std::size_t host = part_named(c, p.inside);
+        if (c.parts[host].kind == "spheres") make_room(p, of_part[k], of_part[host]);
+        check_section_inside(p, c.parts[host], of_part[k]);
+        check_copies_apart(p, of_part[k]);
     });
     Spheres all;
     for (const Spheres& spheres : of_part) all.insert(all.end(), spheres.begin(), spheres.end());
@@ -244,20 +314,20 @@ void make_room_for_fibres(const Case& c, std::vector<GrainSpec>& grains)
         const std::size_t host = part_named(c, p.inside);
         if (c.parts[host].kind != "grains") continue;
         const std::vector<Vec3> line = fibre_polyline(p.fibre);
-        const double radius = p.fibre.radius.value_or(0.5 * p.diameter);
-        const std::size_t before = grains.size();
+        const double radius = fibre_radius(p);
         for (std::size_t copy = 0; copy <= p.copies.size(); ++copy) {
+            const std::size_t before = grains.size();
             const Vec3 shift = copy == 0 ? Vec3{} : p.copies[copy - 1];
             std::erase_if(grains, [&](const GrainSpec& g) {
                 return g.group == static_cast<std::int32_t>(host) &&
                        distance_to_polyline(g.site - shift, line) < radius;
             });
-        }
-        if (grains.size() == before) {
-            throw InputError(fmt::format("parts[{}].inside", k),
-                             fmt::format("no grain of \"{}\" has its centre in the fibre; the fibre must run where "
+            if (grains.size() < before) continue;
+            const std::string key = copy == 0 ? std::string("inside") : fmt::format("copies[{}]", copy - 1);
+            throw InputError(fmt::format("parts[{}].{}", k, key),
+                             fmt::format("no grain of \"{}\" has its centre in {} fibre; the fibre must run where "
                                          "grains can make room for it",
-                                         p.inside));
+                                         p.inside, copy == 0 ? "the" : "this"));
         }
     }
 }

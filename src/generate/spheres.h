@@ -19,7 +19,7 @@ struct SphereSpec {
     double radius = 0.0;  ///< of contacts [m]
     std::int32_t material = 0, group = 0;
     double section_radius = 0.0;  ///< node: of the fibre; 0: a sphere [m]
-    double piece = 0.0;           ///< node: length of fibre that it stands for [m]
+    double piece = 0.0;           ///< link of a chain: length of fibre that it stands for [m]
     std::int32_t chain = -1;      ///< chain it is a link of; neighbours in the list are neighbours in the chain
     Vec3 velocity;                ///< [m/s]
     Vec3 angular_velocity;        ///< [rad/s]

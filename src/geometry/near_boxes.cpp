@@ -45,8 +45,8 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<Box>& boxes
             cell[k] = std::max(cell[k], b.high[k] - b.low[k]);
     }
     const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
-        return static_cast<std::uint64_t>(x * 73856093LL) ^ static_cast<std::uint64_t>(y * 19349663LL) ^
-               static_cast<std::uint64_t>(z * 83492791LL);
+        return static_cast<std::uint64_t>(x) * 73856093ULL ^ static_cast<std::uint64_t>(y) * 19349663ULL ^
+               static_cast<std::uint64_t>(z) * 83492791ULL;  // wraps around where places are far
     };
     const auto cell_of = [&](const Vec3& x, int k) {
         const double place = std::floor(x[k] / cell[k]);

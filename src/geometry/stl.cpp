@@ -42,6 +42,15 @@ struct RawPoint {
 using Edge = std::pair<int, int>;
 using Loop = std::vector<int>;
 
+Vec3 low_corner(const std::vector<Vec3>& points)
+{
+    Vec3 low = points.front();
+    for (const Vec3& p : points) {
+        for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]);
+    }
+    return low;
+}
+
 double size_of(const std::vector<Vec3>& points)
 {
     Vec3 low = points.front(), high = low;
@@ -57,11 +66,12 @@ double size_of(const std::vector<Vec3>& points)
 /// Index of the first point within `tolerance` of each, by a grid of that width.
 std::vector<int> welded(const std::vector<Vec3>& points, double tolerance, std::vector<Vec3>& kept)
 {
+    const Vec3 origin = low_corner(points);  // cells are counted from here, so that their numbers stay small
     std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::vector<int>> grid;
     std::vector<int> index;
     for (const Vec3& p : points) {
         std::int64_t cell[3];
-        for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(p[k] / tolerance));
+        for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor((p[k] - origin[k]) / tolerance));
         int found = -1;
         for (int n = 0; n < 27 && found < 0; ++n) {
             const auto near = grid.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
@@ -102,22 +112,32 @@ public:
     std::vector<std::vector<Vec3>> facets(std::vector<Loop> loops) const
     {
         if (const Loop whole = border(loops); is_facet(whole)) return {corners(whole)};
+        std::map<Edge, int> owner;  // of each directed edge; only loops that share one can be merged
+        const auto enter = [&](int i) {
+            const Loop& loop = loops[static_cast<std::size_t>(i)];
+            for (std::size_t k = 0; k < loop.size(); ++k) owner[{loop[k], loop[(k + 1) % loop.size()]}] = i;
+        };
+        for (int i = 0; i < static_cast<int>(loops.size()); ++i) enter(i);
         bool merged = true;
         while (merged) {
             merged = false;
-            for (std::size_t i = 0; i < loops.size(); ++i) {
-                for (std::size_t j = i + 1; j < loops.size();) {
-                    const Loop both = border({loops[i], loops[j]});
-                    if (!is_facet(both)) {
-                        ++j;
-                        continue;
-                    }
-                    loops[i] = both;
-                    loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(j));
+            for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
+                Loop& loop = loops[static_cast<std::size_t>(i)];
+                for (int j = neighbour(loop, i + 1, owner); j >= 0; j = neighbour(loop, j + 1, owner)) {
+                    Loop& other = loops[static_cast<std::size_t>(j)];
+                    const Loop both = border({loop, other});
+                    if (!is_facet(both)) continue;
+                    for (std::size_t k = 0; k < other.size(); ++k)
+                        owner.erase({other[k], other[(k + 1) % other.size()]});
+                    for (std::size_t k = 0; k < loop.size(); ++k) owner.erase({loop[k], loop[(k + 1) % loop.size()]});
+                    loop = both;
+                    other.clear();
+                    enter(i);
                     merged = true;
                 }
             }
         }
+        std::erase_if(loops, [](const Loop& loop) { return loop.empty(); });
         std::vector<std::vector<Vec3>> polygons;
         for (const Loop& loop : loops) polygons.push_back(corners(loop));
         return polygons;
@@ -125,6 +145,18 @@ public:
 
 private:
     const Vec3& at(int v) const { return vertices_[static_cast<std::size_t>(v)]; }
+
+    /// The first loop from `from` on that shares an edge with this one; -1: none.
+    static int neighbour(const Loop& loop, int from, const std::map<Edge, int>& owner)
+    {
+        int first = -1;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const auto found = owner.find({loop[(k + 1) % loop.size()], loop[k]});
+            if (found != owner.end() && found->second >= from && (first < 0 || found->second < first))
+                first = found->second;
+        }
+        return first;
+    }
 
     /// Outline of several loops; empty unless it is a single closed line that passes every vertex once.
     static Loop border(const std::vector<Loop>& loops)

@@ -148,13 +148,12 @@ void Archive::operator()(const std::string& name, T& value)
         array(name, letters);
         value.assign(letters.begin(), letters.end());
     } else if constexpr (IsOptional<T>::value) {
-        std::vector<typename T::value_type> one;
-        if (value) one.push_back(*value);
-        array(name, one);
-        if (one.empty())
-            value.reset();
-        else
-            value = one.front();
+        bool there = value.has_value();
+        group(name);
+        (*this)(name + "/there", there);
+        if (!there) return value.reset();
+        if (!value) value.emplace();
+        (*this)(name + "/value", *value);
     } else if constexpr (IsMap<T>::value) {
         std::vector<std::string> keys;
         std::vector<typename T::mapped_type> values;

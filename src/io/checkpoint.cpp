@@ -209,7 +209,8 @@ void transfer(Archive& archive, const std::string& name, Model& model)
 {
     auto& [materials, groups, walls, wall_motion, shapes, grain_shapes, interface_laws, parallel_laws, sphere_bond_laws,
            contact_laws, contact_law_of, gravity, local_damping, resolve_impacts, fracture_active, dashpots_active,
-           drag_rate, spread_supports, spread_direction, skin, nominal_length, device] = model;
+           drag_rate, fibres_contract, spread_bodies, spread_area, spread_direction, skin, nominal_length, device] =
+        model;
     (void)device;  // of this machine
     archive.group(name);
     const auto add = [&](const std::string& member, auto& value) { archive(name + "/" + member, value); };
@@ -232,7 +233,9 @@ void transfer(Archive& archive, const std::string& name, Model& model)
     add("fracture_active", fracture_active);
     add("dashpots_active", dashpots_active);
     add("drag_rate", drag_rate);
-    add("spread_supports", spread_supports);
+    add("fibres_contract", fibres_contract);
+    add("spread_bodies", spread_bodies);
+    add("spread_area", spread_area);
     add("spread_direction", spread_direction);
     add("skin", skin);
     add("nominal_length", nominal_length);

@@ -2,12 +2,14 @@
 // How much of the growing files of a result folder there is at a checkpoint.
 #pragma once
 
+#include "experiment/pull_out.h"
 #include "io/growing_text.h"
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grainfrac {
@@ -36,6 +38,28 @@ struct Hdf5Mark {
 struct PullOutMark {
     TextMark rows, profiles;
     std::int64_t next_profile = 0;
+    std::optional<std::pair<PullOutState, FibreProfile>> whole;  ///< that without damage, until it is written
+
+    template <class Visit>
+    void for_each_member(Visit&& visit)
+    {
+        auto& [a, b, c, d] = *this;
+        visit("rows", a);
+        visit("profiles", b);
+        visit("next_profile", c);
+        bool there = d.has_value();
+        visit("has_whole", there);
+        if (!there) return d.reset();
+        if (!d) d.emplace();
+        visit("whole_state", d->first);
+        auto& [position, slip, shear, spread, stress, damage] = d->second;
+        visit("whole_position", position);
+        visit("whole_slip", slip);
+        visit("whole_shear", shear);
+        visit("whole_spread", spread);
+        visit("whole_stress", stress);
+        visit("whole_damage", damage);
+    }
 };
 
 struct FolderMark {

@@ -28,6 +28,13 @@ std::string hdf5_reason()
     throw std::runtime_error(where + ": cannot " + what + ": " + hdf5_reason());
 }
 
+/// Whether an attribute is one value: HDF5 reads as many as the file says, whatever room there is.
+bool is_one_value(hid_t attribute)
+{
+    const Hdf5Id space(H5Aget_space(attribute), H5Sclose);
+    return space.get() >= 0 && H5Sget_simple_extent_npoints(space.get()) == 1;
+}
+
 /// Once, before anything else is asked of HDF5.
 void set_up()
 {
@@ -210,8 +217,10 @@ std::string Hdf5File::text_attribute(const std::string& name, const std::string&
     const Hdf5Id object(H5Aopen_by_name(file_.get(), name.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                         H5Aclose);
     const Hdf5Id type(object.get() < 0 ? H5I_INVALID_HID : H5Aget_type(object.get()), H5Tclose);
-    if (type.get() < 0 || H5Tget_class(type.get()) != H5T_STRING) fail("read attribute " + attribute + " of " + name);
-    std::string text(H5Tget_size(type.get()), '\0');
+    if (type.get() < 0 || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 ||
+        !is_one_value(object.get()))
+        fail("read attribute " + attribute + " of " + name);
+    std::string text(H5Tget_size(type.get()) + 1, '\0');
     if (H5Aread(object.get(), type.get(), text.data()) < 0) fail("read attribute " + attribute + " of " + name);
     text.resize(std::strlen(text.c_str()));
     return text;
@@ -231,7 +240,8 @@ void Hdf5File::read_attribute(const std::string& name, const std::string& attrib
 {
     const Hdf5Id object(H5Aopen_by_name(file_.get(), name.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                         H5Aclose);
-    if (object.get() < 0 || H5Aread(object.get(), type, value) < 0) fail("read attribute " + attribute + " of " + name);
+    if (object.get() < 0 || !is_one_value(object.get()) || H5Aread(object.get(), type, value) < 0)
+        fail("read attribute " + attribute + " of " + name);
 }
 
 void Hdf5File::write_dataset(const std::string& name, const std::vector<hsize_t>& extents, hid_t type,

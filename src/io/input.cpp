@@ -385,13 +385,13 @@ std::string shortened(const std::string& text)
 
 }  // namespace
 
-Case read_case(const std::string& file, const std::vector<std::string>& overrides, Places& places_out)
+namespace {
+
+Case case_of(Node document, const std::string& file, const std::vector<std::string>& overrides, Places& places_out)
 {
     enter_sphere_formats();
-    places_out.clear();
     Problems problems;
     Places wrong_overrides;
-    Node document = read_document(file, places_out);
     for (const std::string& text : overrides) apply_override(document, text, problems, wrong_overrides);
     collect_places(document, "", places_out);
     for (const auto& [key, place] : wrong_overrides) places_out[key] = place;
@@ -413,14 +413,30 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
     return c;
 }
 
-std::string render_problems(const Problems& problems, const Places& places, const std::string& file)
+}  // namespace
+
+Case read_case(const std::string& file, const std::vector<std::string>& overrides, Places& places_out)
+{
+    places_out.clear();
+    return case_of(read_document(file, places_out), file, overrides, places_out);
+}
+
+Case read_case_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                    Places& places_out)
+{
+    places_out.clear();
+    return case_of(parse_document(text, file, places_out), file, overrides, places_out);
+}
+
+std::string render_problems(const Problems& problems, const Places& places, const std::string& file,
+                            const char* severity)
 {
     std::string out;
     for (const InputProblem& problem : problems) {
         bool its_own = false;
         const SourcePlace* place = place_of(problem.key, places, its_own);
         const bool override_line = place && place->file == "--set";
-        std::string head = "error: " + (place ? place->file : file);
+        std::string head = fmt::format("{}: {}", severity, place ? place->file : file);
         if (place && place->line > 0) head += fmt::format(":{}", place->line);
         if (!problem.key.empty()) head += (override_line ? " " : ": ") + problem.key;
         if (its_own && place && !place->text.empty()) head += " = " + shortened(on_one_line(place->text));

@@ -353,10 +353,17 @@ private:
     /// Laws by what they join: spheres have no faces, grains no centre that a spring could hang on.
     void of_spheres(const BondSpec& b, const std::string& path)
     {
-        if (!right(path) || !right("parts")) return;
+        if (!right("parts")) return;
         const bool no_grains =
             std::all_of(c_.parts.begin(), c_.parts.end(), [](const PartSpec& p) { return p.kind == "spheres"; });
         const bool some_sphere = is_a("spheres", b.between[0]) || is_a("spheres", b.between[1]) || no_grains;
+        if (b.law == "interface" && some_sphere && !given(path + ".shear_stiffness") && right(path + ".law") &&
+            right(path + ".between")) {
+            // without it the entry was read as one of grains
+            std::erase_if(problems_, [&](const InputProblem& p) { return p.key.rfind(path + '.', 0) == 0; });
+            fail(path + ".shear_stiffness", "missing; required for the interface of a fibre, such as \"1e9 Pa/m\"");
+        }
+        if (!right(path)) return;
         const bool some_grain = is_a("grains", b.between[0]) || is_a("grains", b.between[1]);
         if (b.law == "spring" && !some_sphere)
             fail(path + ".law", "\"spring\" joins spheres; grains take \"interface\", \"parallel\" or \"point\"");
@@ -364,8 +371,6 @@ private:
             fail(path + ".law", "\"point\" joins grains; spheres take \"parallel\" or \"spring\"");
         if (b.law != "interface" && some_sphere && some_grain)
             fail(path + ".law", fmt::format("\"{}\" cannot join spheres and grains; use \"interface\"", b.law));
-        if (b.law == "interface" && some_sphere && b.shear_stiffness == 0.0)
-            fail(path + ".shear_stiffness", "missing; required for the interface of a fibre, such as \"1e9 Pa/m\"");
         if (b.shear_ratio && *b.shear_ratio == 0.0 && !some_sphere && right(path + ".shear_ratio"))
             fail(path + ".shear_ratio", "must be > 0 between grains");
         if (b.failure_slip && !b.yield_slip && right(path + ".failure_slip"))

@@ -31,6 +31,8 @@ const char* type_name(Node::Type type);
 
 /// The file as a tree. Throws InputError, with its line in places[""], if it cannot be read or is not TOML.
 Node read_document(const std::string& file, std::map<std::string, SourcePlace>& places);
+/// The same of a text; `file` is what messages call it.
+Node parse_document(const std::string& text, const std::string& file, std::map<std::string, SourcePlace>& places);
 
 /// A text as a tree; `name`: of its file, for messages. Throws InputError.
 Node parse_document(const std::string& text, const std::string& name);

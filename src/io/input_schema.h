@@ -333,6 +333,10 @@ void describe(V& v, PartSpec& s)
        .meaning =
            "number of rows and columns: those of the source, which may overshoot the region, or only what fits inside",
        .source = "Saleme Ruiz 2016, App. A"});
+    v("centered", s.centered,
+      {.used = prisms,
+       .meaning = "a prism of the first layer stands on the line through the region's centre, as the place of a fibre; "
+                  "otherwise the lattice starts in the lower corner of the region's box"});
     v("dilation_radius", s.dilation_radius,
       {.unit = "m",
        .range = positive,
@@ -463,6 +467,11 @@ void describe(V& v, BondSpec& s)
        .range = not_negative,
        .used = fibre,
        .meaning = "p_0 of the matrix on the fibre; adds residual_friction times it to the friction"});
+    v("contraction", s.contraction,
+      {.range = not_negative,
+       .used = {of_fibre && s.radial_pressure > 0.0, "radial_pressure"},
+       .unset = "chain: nu_f E_m/((1 - nu_f) E_m + (1 + nu_m) E_f), a wide matrix; taken: 0",
+       .meaning = "k_p: the pressure falls by this times the axial stress of the fibre, p = p_0 - k_p sigma_f >= 0"});
     v("frame", s.frame,
       {.words = "surface | branch",
        .used = fibre,

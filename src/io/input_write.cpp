@@ -3,6 +3,7 @@
 #include "io/input.h"
 #include "io/input_document.h"
 #include "io/input_schema.h"
+#include "io/toml_text.h"
 
 #include <fmt/format.h>
 
@@ -10,73 +11,6 @@
 
 namespace grainfrac {
 namespace {
-
-/// Shortest text that reads back as the same double, as a TOML float.
-std::string toml_text(double x)
-{
-    std::string text = fmt::format("{}", x);
-    if (text.find_first_of(".en") == text.npos) text += ".0";  // n: inf, nan
-    return text;
-}
-std::string toml_text(std::int64_t x)
-{
-    return fmt::format("{}", x);
-}
-std::string toml_text(int x)
-{
-    return fmt::format("{}", x);
-}
-std::string toml_text(bool x)
-{
-    return x ? "true" : "false";
-}
-std::string toml_text(const std::string& s)
-{
-    std::string out = "\"";
-    for (const char c : s) {
-        if (c == '"' || c == '\\') {
-            out += {'\\', c};
-        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-            out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-        } else {
-            out += c;
-        }
-    }
-    return out + '"';
-}
-std::string toml_text(const Vec3& v);
-template <class Range>
-std::string toml_list(const Range& values)
-{
-    std::string out;
-    for (const auto& value : values) out += (out.empty() ? "" : ", ") + toml_text(value);
-    return '[' + out + ']';
-}
-std::string toml_text(const Vec3& v)
-{
-    return toml_list(std::array{v.x, v.y, v.z});
-}
-std::string toml_text(const std::vector<double>& v)
-{
-    return toml_list(v);
-}
-std::string toml_text(const std::vector<std::string>& v)
-{
-    return toml_list(v);
-}
-std::string toml_text(const std::vector<Vec3>& v)
-{
-    return toml_list(v);
-}
-std::string toml_text(const std::array<std::string, 2>& v)
-{
-    return toml_list(v);
-}
-template <class T>
-std::string toml_text(const std::optional<T>& x)
-{
-    return x ? toml_text(*x) : "\"auto\"";
-}
 
 std::string_view unit_of(const Facts& facts)
 {

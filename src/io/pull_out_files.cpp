@@ -22,10 +22,10 @@ constexpr double damage_round_off = 1e-9;
 constexpr const char* rows_head =
     "# phase: 0 stress growth, 1 debonding, 2 friction. Slip of the exit and of the embedded end: of the fibre "
     "against the matrix, along the pull.\n"
-    "end_slip_m,end_stress_Pa,end_displacement_m,embedded_slip_m,mean_damage,phase\n";
+    "end_slip_m,end_stress_Pa,end_displacement_m,embedded_slip_m,mean_damage,phase,support_stress_Pa\n";
 constexpr const char* profiles_head =
-    "# means of the levels of the fibre; z from the embedded end\nmean_damage,z_m,slip_m,tau_Pa,sigma_f_Pa,"
-    "damage\n";
+    "# means of the levels of the fibre; z from where its matrix begins; tau_spread: about the mean of a level\n"
+    "mean_damage,z_m,slip_m,tau_Pa,sigma_f_Pa,damage,tau_spread_Pa\n";
 
 std::vector<double> sorted(std::vector<double> values)
 {
@@ -53,7 +53,8 @@ PullOutFiles::PullOutFiles(const std::filesystem::path& folder, std::vector<doub
     : rows_(folder / rows_name, mark.rows),
       profiles_(folder / profiles_name, mark.profiles),
       due_(sorted(std::move(profiles_at))),
-      next_(static_cast<std::size_t>(mark.next_profile))
+      next_(static_cast<std::size_t>(mark.next_profile)),
+      whole_(mark.whole)
 {
 }
 
@@ -65,7 +66,7 @@ void check_heads(const std::filesystem::path& folder, const PullOutMark& mark)
 
 PullOutMark PullOutFiles::mark() const
 {
-    return {rows_.mark(), profiles_.mark(), static_cast<std::int64_t>(next_)};
+    return {rows_.mark(), profiles_.mark(), static_cast<std::int64_t>(next_), whole_};
 }
 
 void PullOutFiles::append(const PullOutState& s, const FibreProfile& p)
@@ -74,13 +75,34 @@ void PullOutFiles::append(const PullOutState& s, const FibreProfile& p)
     for (const double x : {s.exit_slip, s.end_stress, s.end_displacement, s.embedded_slip, s.mean_damage})
         append_cell(line, x);
     append_cell(line, phase_of(s));
+    append_cell(line, s.support_stress);
     rows_.append(line + '\n');
-    if (s.end_stress == 0.0 || next_ >= due_.size() || s.mean_damage < due_[next_] - damage_round_off) return;
+    if (next_ < due_.size() && due_[next_] <= 0.0) {  // the last state without damage
+        if (s.mean_damage <= 0.0) {
+            if (s.end_stress != 0.0) whole_ = {s, p};
+            return;
+        }
+        finish();
+    }
+    if (next_ >= due_.size() || s.mean_damage < due_[next_] - damage_round_off) return;
     while (next_ < due_.size() && s.mean_damage >= due_[next_] - damage_round_off) ++next_;
+    put_profile(s, p);
+}
+
+void PullOutFiles::finish()
+{
+    if (next_ >= due_.size() || due_[next_] > 0.0) return;
+    while (next_ < due_.size() && due_[next_] <= 0.0) ++next_;
+    if (whole_) put_profile(whole_->first, whole_->second);
+}
+
+void PullOutFiles::put_profile(const PullOutState& s, const FibreProfile& p)
+{
     std::string rows;
     for (std::size_t k = 0; k < p.position.size(); ++k) {
         std::string row;
-        for (const double x : {s.mean_damage, p.position[k], p.slip[k], p.shear[k], p.stress[k], p.damage[k]})
+        for (const double x :
+             {s.mean_damage, p.position[k], p.slip[k], p.shear[k], p.stress[k], p.damage[k], p.spread[k]})
             append_cell(row, x);
         rows += row + '\n';
     }

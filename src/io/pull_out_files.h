@@ -8,7 +8,9 @@
 #include "io/results.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grainfrac {
@@ -21,12 +23,17 @@ public:
     PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at, const PullOutMark& mark);
     /// Each row is on disk when it returns; errors throw std::runtime_error that names the file.
     void append(const PullOutState& row, const FibreProfile& profile);
+    /// The profile without damage, where none came.
+    void finish();
     PullOutMark mark() const;
 
 private:
+    void put_profile(const PullOutState& row, const FibreProfile& profile);
+
     GrowingText rows_, profiles_;
     std::vector<double> due_;  // rising
     std::size_t next_ = 0;
+    std::optional<std::pair<PullOutState, FibreProfile>> whole_;  // without damage, the last so far
 };
 
 /// Throws std::runtime_error that names the file unless both begin as the mark says.

@@ -252,6 +252,7 @@ void ResultFolder::finish(const std::string& summary_json, const Model& model, c
     impl_->table.value().finish(model, state, fields, cracks);
     impl_->table.value().close();
     impl_->history.value().close();
+    if (impl_->pull_out) impl_->pull_out->finish();
     const std::vector<Cluster> clusters = collect_clusters(model, state, fields);
     const std::vector<Fragment> fragments = collect_fragments(model, state, fields);
     write_fragment_tables(impl_->folder, impl_->facts, fragments, clusters);

@@ -3,6 +3,7 @@
 
 #include "generate/sphere_file.h"
 #include "io/hdf5_file.h"
+#include "io/isolated_read.h"
 
 #include <fmt/format.h>
 
@@ -30,9 +31,11 @@ std::vector<Ball> read_spheres_hdf5(const std::filesystem::path& file)
 
 void enter_sphere_formats()
 {
-    for (const char* extension : {".h5", ".hdf5"}) add_sphere_format(extension, read_spheres_hdf5);
+    const auto by_hdf5 = [](const std::filesystem::path& file) { return read_isolated(read_spheres_hdf5, file); };
+    for (const char* extension : {".h5", ".hdf5"}) add_sphere_format(extension, by_hdf5);
 #ifdef GF_HAVE_VTK
-    for (const char* extension : {".vtk", ".vtp", ".vtu"}) add_sphere_format(extension, read_spheres_vtk);
+    const auto by_vtk = [](const std::filesystem::path& file) { return read_isolated(read_spheres_vtk, file); };
+    for (const char* extension : {".vtk", ".vtp", ".vtu"}) add_sphere_format(extension, by_vtk);
 #endif
 }
 

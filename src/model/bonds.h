@@ -21,21 +21,25 @@ struct Vec2 {
 
 /// Grain boundaries, one entry per shared face (physics: total form, no history but damage and slip).
 struct InterfaceBonds {
-    Buffer<std::int32_t> a, b;           ///< bodies
-    Buffer<std::int32_t> law;            ///< into Model::interface_laws
-    Buffer<std::int32_t> point_begin;    ///< first quadrature point; one more entry at the end
-    Buffer<std::int32_t> corner_begin;   ///< first corner of the face polygon; one more entry at the end
-    Buffer<Vec3> normal_a, normal_b;     ///< unit normal from a to b, in the frames of a and b [-]
-    Buffer<Vec3> tangent_a, tangent_b;   ///< first tangent, in the frames of a and b [-]
-    Buffer<double> area;                 ///< [m^2]
-    Buffer<double> slip_limit;           ///< sliding beyond which a dead face is handed to general contact [m]
-    Buffer<double> normal_stiffness;     ///< k_n per area [Pa/m]
-    Buffer<double> shear_stiffness;      ///< k_s per area [Pa/m]
-    Buffer<double> normal_damping;       ///< c_n per area [Pa s/m]
-    Buffer<double> shear_damping;        ///< c_s per area [Pa s/m]
-    Buffer<double> strength_factor;      ///< scatter: multiplies sigma_c and c [-]
-    Buffer<double> toughness_factor;     ///< scatter: multiplies G_I and G_II [-]
-    Buffer<double> pressure;             ///< on the face from outside the model, of a fibre's matrix; for friction [Pa]
+    Buffer<std::int32_t> a, b;          ///< bodies
+    Buffer<std::int32_t> law;           ///< into Model::interface_laws
+    Buffer<std::int32_t> point_begin;   ///< first quadrature point; one more entry at the end
+    Buffer<std::int32_t> corner_begin;  ///< first corner of the face polygon; one more entry at the end
+    Buffer<Vec3> normal_a, normal_b;    ///< unit normal from a to b, in the frames of a and b [-]
+    Buffer<Vec3> tangent_a, tangent_b;  ///< first tangent, in the frames of a and b [-]
+    Buffer<double> area;                ///< [m^2]
+    Buffer<double> slip_limit;          ///< sliding beyond which a dead face is handed to general contact [m]
+    Buffer<double> normal_stiffness;    ///< k_n per area [Pa/m]
+    Buffer<double> shear_stiffness;     ///< k_s per area [Pa/m]
+    Buffer<double> normal_damping;      ///< c_n per area [Pa s/m]
+    Buffer<double> shear_damping;       ///< c_s per area [Pa s/m]
+    Buffer<double> strength_factor;     ///< scatter: multiplies sigma_c and c [-]
+    Buffer<double> toughness_factor;    ///< scatter: multiplies G_I and G_II [-]
+    Buffer<double> pressure;            ///< on the face from outside the model, of a fibre's matrix; for friction [Pa]
+    Buffer<double> pressure_at_rest;    ///< p_0, where the fibre bears no stress [Pa]
+    Buffer<double> contraction;         ///< k_p: loss of pressure per axial stress of the fibre; 0: none [-]
+    Buffer<double> fibre_section;       ///< of the fibre, where it contracts [m^2]
+    Buffer<std::int32_t> bond_before, bond_after;  ///< sphere bonds of the fibre's node on either side; -1: none
     Buffer<double> opening_limit;        ///< opening beyond which a dead face is handed to general contact [m]
     Buffer<std::int32_t> transgranular;  ///< 1: made by a split, within what was one grain
     Buffer<double> K_I, K_II;            ///< of the flaw that split the grain; 0 for boundaries [Pa sqrt(m)]
@@ -76,6 +80,11 @@ struct InterfaceBonds {
         visit("strength_factor", strength_factor);
         visit("toughness_factor", toughness_factor);
         visit("pressure", pressure);
+        visit("pressure_at_rest", pressure_at_rest);
+        visit("contraction", contraction);
+        visit("fibre_section", fibre_section);
+        visit("bond_before", bond_before);
+        visit("bond_after", bond_after);
         visit("opening_limit", opening_limit);
         visit("transgranular", transgranular);
         visit("K_I", K_I);

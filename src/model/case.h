@@ -97,6 +97,7 @@ struct PartSpec {
     double thickness = 0.0;                 ///< [m]
     std::string stacking = "columnar";      ///< columnar (AA) | half | hollow (AB)
     std::string lattice = "nominal";        ///< nominal | contained
+    bool centered = false;                  ///< a prism stands on the line through the region's centre
     std::optional<double> dilation_radius;  ///< [m]; auto: 0.04 of the mean inradius
     double sliver_fraction = 0.05;          ///< [-]
     double gap = 0.0;                       ///< between neighbours, which are smaller by it [m]
@@ -152,6 +153,7 @@ struct BondSpec {
     std::optional<double> failure_slip;  ///< delta_1 [m]
     double residual_shear = 0.0;         ///< tau_r of the broken interface [Pa]
     double radial_pressure = 0.0;        ///< p_0 of the matrix on the fibre [Pa]
+    std::optional<double> contraction;   ///< k_p: loss of p per axial stress of the fibre [-]; auto: of a wide matrix
     std::string frame = "surface";       ///< surface: of the fibre's cylinder | branch: between the centres
     std::string reach = "level";         ///< lattice fibre: level: spheres side by side | all: all that touch
     std::string made_in;                 ///< stage of kind "bond" that makes them; "": there from the start

@@ -72,14 +72,16 @@ struct Model {
     std::vector<std::int32_t> contact_law_of;  ///< group x group -> contact law, row by row
     Vec3 gravity;                              ///< [m/s^2]
     double local_damping = 0.0;                ///< alpha [-]
-    bool resolve_impacts = false;  ///< the time step resolves rebounds of fragments too, not of loose grains only
-    bool fracture_active = true;   ///< bonds may break or soften in this stage
-    bool dashpots_active = true;   ///< of bonds; relaxation brings its own damping
-    double drag_rate = 0.0;        ///< of relaxation: drag per mass and velocity [1/s]
-    std::vector<std::int32_t> spread_supports;  ///< walls whose bodies stay put in the mean, under equal forces
-    Vec3 spread_direction;                      ///< along which they do [-]
-    double skin = 0.0;                          ///< of the neighbour list [m]
-    double nominal_length = 0.0;                ///< mean grain spacing, for scales and tolerances [m]
+    bool resolve_impacts = false;        ///< the time step resolves rebounds of fragments too, not of loose grains only
+    bool fracture_active = true;         ///< bonds may break or soften in this stage
+    bool dashpots_active = true;         ///< of bonds; relaxation brings its own damping
+    double drag_rate = 0.0;              ///< of relaxation: drag per mass and velocity [1/s]
+    bool fibres_contract = false;        ///< an interface loses pressure with the stress of its fibre
+    Buffer<std::int32_t> spread_bodies;  ///< stay put in the mean, under a stress that varies linearly over them
+    Buffer<double> spread_area;          ///< share of the face of each, in any unit
+    Vec3 spread_direction;               ///< along which they do [-]
+    double skin = 0.0;                   ///< of the neighbour list [m]
+    double nominal_length = 0.0;         ///< mean grain spacing, for scales and tolerances [m]
     Device device = Device::cpu;
 };
 

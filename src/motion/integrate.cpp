@@ -38,7 +38,7 @@ GF_FN bool turns_freely(const Vec3& inverse_inertia)
 
 struct Kick {
     static constexpr const char* name = "kick";
-    double dt, local_damping, drag_rate;
+    double dt, local_damping, kept;  // kept: share of the motion that the drag leaves
     Vec3 gravity;
     View<const Vec3> force, torque, inverse_inertia;
     View<const double> mass, inverse_mass;
@@ -62,10 +62,6 @@ struct Kick {
             if (local_damping > 0.0)
                 drag = local_drag(local_damping, with_held(force[i], {}, held[i]), with_held(v, {}, held[i]));
             Vec3 v_new = v + (dt * inverse_mass[i]) * (force[i] + drag);
-            if (drag_rate > 0.0) {  // -rate m (v + v_new)/2, solved for v_new
-                v_new = (v_new - (0.5 * dt * drag_rate) * v) * (1.0 / (1.0 + 0.5 * dt * drag_rate));
-                drag -= (0.5 * drag_rate * mass[i]) * (v + v_new);
-            }
             if (held[i] != 0) {  // the system pushes back along what is held, we push with the opposite force
                 v_new = with_held(v_new, v, held[i]);
                 external_work[i] -= dt * dot(force[i] - with_held(force[i], {}, held[i]), v);
@@ -73,26 +69,31 @@ struct Kick {
             }
             const Vec3 mean = 0.5 * (v + v_new);
             gravity_work[i] += dt * mass[i] * dot(gravity, mean);
-            velocity[i] = v_new;
             braked = dot(drag, mean);
+            if (kept < 1.0) {
+                damping_work[i] += 0.5 * (1.0 - kept * kept) * mass[i] * norm2(with_held(v_new, {}, held[i]));
+                v_new = with_held(kept * v_new, v_new, held[i]);
+            }
+            velocity[i] = v_new;
         }
 
         const Vec3 t = rotate_back(orientation[i], torque[i]);
         const Vec3 spin = scaled(inverse_inertia[i], angular_momentum[i]);
         Vec3 brake = local_damping > 0.0 ? local_drag(local_damping, t, spin) : Vec3{};
         Vec3 L = angular_momentum[i] + dt * (t + brake);
-        if (drag_rate > 0.0) {
-            L = (L - (0.5 * dt * drag_rate) * angular_momentum[i]) * (1.0 / (1.0 + 0.5 * dt * drag_rate));
-            brake -= (0.5 * drag_rate) * (angular_momentum[i] + L);
-        }
         if ((held[i] & held_rotation) != 0) {
             L = angular_momentum[i];
             brake = Vec3{};
         }
         const Vec3 spin_new = scaled(inverse_inertia[i], L);
         damping_work[i] -= dt * (braked + dot(brake, 0.5 * (spin + spin_new)));
-        angular_momentum[i] = L;
-        angular_velocity[i] = rotate(orientation[i], spin_new);
+        double turning = 1.0;
+        if (kept < 1.0 && (held[i] & held_rotation) == 0) {
+            damping_work[i] += 0.5 * (1.0 - kept * kept) * dot(L, spin_new);
+            turning = kept;
+        }
+        angular_momentum[i] = turning * L;
+        angular_velocity[i] = rotate(orientation[i], turning * spin_new);
     }
 };
 
@@ -145,15 +146,17 @@ struct UpdateAngularVelocity {
 
 }  // namespace
 
-void kick(const Model& model, State& state, double dt)
+void kick(const Model& model, State& state, double dt, double drag_time)
 {
     const Device d = model.device;
     Bodies& b = state.bodies;
+    const double half_drag = 0.5 * drag_time * model.drag_rate;
+    const double kept = (1.0 - half_drag) / (1.0 + half_drag);
     parallel_for(
         d, b.size(),
-        Kick{dt, model.local_damping, model.drag_rate, model.gravity, b.force.read(d), b.torque.read(d),
-             b.inverse_inertia.read(d), b.mass.read(d), b.inverse_mass.read(d), b.held.read(d), b.orientation.read(d),
-             b.velocity.write(d), b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
+        Kick{dt, model.local_damping, kept, model.gravity, b.force.read(d), b.torque.read(d), b.inverse_inertia.read(d),
+             b.mass.read(d), b.inverse_mass.read(d), b.held.read(d), b.orientation.read(d), b.velocity.write(d),
+             b.angular_momentum.write(d), b.angular_velocity.write(d), b.external_work.write(d),
              b.damping_work.write(d), b.gravity_work.write(d)});
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion/relax.h"
 
+#include "contact/gather.h"
 #include "gpu/parallel.h"
 #include "motion/energy.h"
+#include "motion/spread_supports.h"
 #include "motion/step.h"
 
 #include <algorithm>
@@ -196,6 +198,8 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
 {
     stop_motion(model, state);
     const Borrowed borrowed(model, state, masses_, settings.fracture);
+    gather_forces(model, state);  // what a spread support takes goes by the masses
+    spread_support_forces(model, state);
     const Device d = model.device;
     Bodies& b = state.bodies;
     Buffer<Vec3> old_force, old_torque;

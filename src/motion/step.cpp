@@ -6,6 +6,7 @@
 #include "contact/find_pairs.h"
 #include "contact/gather.h"
 #include "fracture/bond_forces.h"
+#include "fracture/fibre_pressure.h"
 #include "motion/energy.h"
 #include "motion/integrate.h"
 #include "motion/servo.h"
@@ -38,10 +39,11 @@ void step(const Model& model, State& state, double dt, bool want_stress)
     make_room_for_stress(state, want_stress);
     find_contacts(model, state);  // geometry only: overlap, normal, point
     contact_forces(model, state, dt);
+    fibre_pressures(model, state);
     bond_forces(model, state, dt);  // interfaces and parallel bonds; marks what breaks
     gather_forces(model, state);    // onto the bodies, in a fixed order
     spread_support_forces(model, state);
-    kick(model, state, 0.5 * dt);  // velocities to the end of the step
+    kick(model, state, 0.5 * dt, dt);  // velocities to the end of the step; drag
 }
 
 void start(const Model& model, State& state)
@@ -51,6 +53,7 @@ void start(const Model& model, State& state)
     find_pairs(model, state);
     find_contacts(model, state);
     contact_forces(model, state, 0.0);
+    fibre_pressures(model, state);
     bond_forces(model, state, 0.0);
     gather_forces(model, state);
     spread_support_forces(model, state);

@@ -4,11 +4,13 @@
 #include "io/history_csv.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -106,4 +108,54 @@ TEST_CASE("example chain_fountain in short: the plate pushes a stiff chain up, n
     };
     CHECK(reaction("chain_fountain") > 0.08);
     CHECK(std::fabs(reaction("chain_string")) < 0.04);  // counted in whole spheres, 0.012 each
+}
+
+namespace {
+
+const char* const short_pull_out =
+    "--set parts.matrix.region.height='\"6 m\"' --set parts.matrix.region.diameter='\"6 m\"' --set "
+    "test.damage_step=0.1 ";
+
+struct PullOutRun {
+    std::string hash;
+    double peak, slip, work, error;
+};
+
+/// Of the example of a fibre of 6 m along an axis.
+PullOutRun pulled(char axis, int threads)
+{
+    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
+    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const std::string ends = axis == 'x' ? "'[-2.9, 0, 0]' --set parts.fibre.fibre.to='[2.9, 0, 0]' "
+                                         : "'[0, 0, -2.9]' --set parts.fibre.fibre.to='[0, 0, 2.9]' ";
+    const std::string along = std::string("'\"") + axis + "\"' ";
+    const std::string command = std::string(GF_PROGRAM) + " run '" + GF_SOURCE_DIR +
+                                "/examples/fibre_pullout/fibre_pullout.toml' --out '" + folder +
+                                "/out' -q --no-report --threads " + std::to_string(threads) + " " + short_pull_out +
+                                "--set parts.fibre.fibre.from=" + ends + "--set parts.matrix.region.axis=" + along +
+                                "--set parts.matrix.lattice_axis=" + along + " > /dev/null";
+    CAPTURE(command);
+    REQUIRE(std::system(command.c_str()) == 0);
+    std::ifstream in(folder + "/out/summary.json");
+    const nlohmann::json s = nlohmann::json::parse(in);
+    in.close();
+    fs::remove_all(folder);
+    const nlohmann::json& t = s["test"];
+    return {s["state_hash"].get<std::string>(), t["peak_stress_Pa"].get<double>(),
+            t["largest_exit_slip_m"].get<double>(), t["work_J_per_m2"].get<double>(),
+            s["energy"]["relative_error"].get<double>()};
+}
+
+}  // namespace
+
+TEST_CASE("example fibre_pullout in short: same bits on two threads, same path along another axis")
+{
+    const PullOutRun one = pulled('z', 1), two = pulled('z', 2), turned = pulled('x', 1);
+    CHECK(one.hash == two.hash);
+    CHECK(one.error < 1e-3);
+    // equilibria are found to 1e-6 of the mean force
+    CHECK(turned.peak == Approx(one.peak).epsilon(1e-4));
+    CHECK(turned.slip == Approx(one.slip).epsilon(1e-4));
+    CHECK(turned.work == Approx(one.work).epsilon(1e-3));
+    CHECK(one.slip == Approx(3e-3).epsilon(0.01));  // a fibre shorter than 9.7 m never slips further
 }

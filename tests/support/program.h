@@ -2,6 +2,8 @@
 // The program run in a folder of its own, from a shell or as a child that can be killed.
 #pragma once
 
+#include "support/workplace.h"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -22,46 +24,12 @@ namespace program_test {
 
 namespace fs = std::filesystem;
 
-/// GF_PROGRAM in the environment: another one than that of this build.
-inline const std::string program = std::getenv("GF_PROGRAM") != nullptr ? std::getenv("GF_PROGRAM") : GF_PROGRAM;
+using grainfrac::test::Outcome;
+using grainfrac::test::text_of;
+using grainfrac::test::Workplace;
+
+inline const std::string program = grainfrac::test::program_under_test();
 inline const fs::path source = GF_SOURCE_DIR;
-
-struct Outcome {
-    int code = 0;
-    std::string out, err;
-};
-
-inline std::string text_of(const fs::path& file)
-{
-    std::ifstream in(file);
-    std::ostringstream s;
-    s << in.rdbuf();
-    return s.str();
-}
-
-/// A folder of its own for each case, removed at the end.
-struct Workplace {
-    fs::path folder;
-    Workplace()
-    {
-        std::string name = (fs::temp_directory_path() / "grainfrac_test_XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        folder = name;
-    }
-    ~Workplace() { fs::remove_all(folder); }
-    Outcome run(const std::string& arguments) const
-    {
-        const std::string command =
-            "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > out.txt 2> err.txt < /dev/null";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / "out.txt"),
-                text_of(folder / "err.txt")};
-    }
-    nlohmann::json summary(const std::string& result) const
-    {
-        return nlohmann::json::parse(text_of(folder / result / "summary.json"));
-    }
-};
 
 /// The program at work in a workplace; killed with it if it still is.
 class Child {

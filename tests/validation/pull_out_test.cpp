@@ -49,8 +49,8 @@ Case pull_out_case(double length)
     fibre.generator = "chain";
     fibre.diameter = 0.8;
     fibre.inside = "matrix";
-    fibre.fibre.from = {0.0, 0.0, -0.5 * length - 0.5};
-    fibre.fibre.to = {0.0, 0.0, 0.5 * length + 0.5};
+    fibre.fibre.from = {0.0, 0.0, -0.5 * length - 0.2};
+    fibre.fibre.to = {0.0, 0.0, 0.5 * length + 0.2};
     fibre.fibre.radius = 1.0;
     c.parts = {matrix, fibre};
     BondSpec solid, line, interface;
@@ -74,6 +74,7 @@ Case pull_out_case(double length)
 struct Run {
     Built built;
     std::vector<PullOutState> path;
+    PullOutPath::Found found = PullOutPath::Found::equilibrium;  // the last
 
     explicit Run(const Case& c) : built(build(c, Device::cpu)) { start(built.model, built.state); }
 
@@ -85,7 +86,7 @@ struct Run {
     {
         PullOutPath p(pull_out(), settings, built.model, built.state);
         path = {now()};
-        while (p.next(built.model, built.state, {}) == PullOutPath::Found::equilibrium) {
+        while ((found = p.next(built.model, built.state, {})) == PullOutPath::Found::equilibrium) {
             path.push_back(now());
             if (enough(path.back())) return;
         }
@@ -193,6 +194,7 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
     c.bonds[2].friction = 0.2;
     c.bonds[2].residual_friction = 0.2;
     c.bonds[2].radial_pressure = 0.5e6;  // the same once more
+    c.bonds[2].contraction = 0.0;
     Run run(c);
     PathSettings s = by_damage(0.2);
     s.shift = 1e-3;
@@ -211,4 +213,31 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
         CHECK(now.end_stress == Approx(2.0 * 0.2e6 * left).epsilon(0.01));
     }
     CHECK(run.path.back().exit_slip > 2.0);
+}
+
+TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pull_out]")
+{
+    Case c = pull_out_case(30.0);
+    c.materials[1].poisson_ratio = 0.3;  // the bonds of the matrix have a shear ratio of their own
+    c.parts[0].region.diameter = 4.0;
+    c.bonds[2].residual_friction = 0.1;
+    c.bonds[2].radial_pressure = 1e6;
+    double contraction = 0.0144928, tolerance = 0.001;  // that of the two materials, sheet 11
+    SECTION("of the two materials") {}
+    SECTION("strong")
+    {
+        c.bonds[2].contraction = contraction = 0.2;
+        tolerance = 0.005;  // pieces of 0.8 m against a length of decay of 25 m
+    }
+    Run run(c);
+    PathSettings s = by_damage(0.5);
+    s.slides = true;
+    s.slide = 0.1;  // less than half a piece: no patch has left the friction
+    run.follow(s, [](const PullOutState& now) { return now.exit_slip > 0.05; });  // all of it slides
+    const PullOut& p = run.pull_out();
+    CHECK(run.found == PullOutPath::Found::equilibrium);
+    const double expected = 1e6 / contraction * (1.0 - std::exp(-2.0 * 0.1 * contraction * p.length));
+    CHECK(run.path.back().mean_damage == Approx(1.0));
+    CHECK(run.path.back().end_stress == Approx(expected).epsilon(tolerance));
+    CHECK(energy_ledger(run.built.model, run.built.state).relative_error() < 5e-3);
 }

@@ -124,6 +124,33 @@ TEST_CASE("contained lattice stays inside", "[lattice]")
         for (const Vec3& v : p.vertices) CHECK(std::hypot(v.x - 7.5, v.y - 7.5) < 7.5 + 1e-7);
 }
 
+TEST_CASE("a centred lattice has a prism on the region's centre", "[lattice]")
+{
+    for (const BoundaryMode boundary : {BoundaryMode::keep, BoundaryMode::cut}) {
+        HexagonalPrismSpec spec = disc_spec(15, 2.6, 0.7, 1.3);
+        spec.boundary = boundary;
+        spec.lattice = boundary == BoundaryMode::cut ? LatticeMode::fill : LatticeMode::nominal;
+        spec.centered = true;
+        double nearest = 1e300, volume = 0.0;
+        for (const LatticeCell& c : hexagonal_prism_lattice(spec)) {
+            nearest = std::min(nearest, std::hypot(c.site.x - 7.5, c.site.y - 7.5));
+            volume += mass_properties(c.shape).volume;
+        }
+        CHECK(nearest < 1e-12);
+        if (boundary == BoundaryMode::cut)
+            CHECK(volume == Approx(mass_properties(region_polyhedron(spec.region)).volume).epsilon(1e-12));
+    }
+    // symmetric about the centre: what is kept comes in pairs
+    HexagonalPrismSpec spec = disc_spec(15, 1.3, 0.6, 1.3);
+    spec.centered = true;
+    const std::vector<LatticeCell> cells = hexagonal_prism_lattice(spec);
+    for (const LatticeCell& c : cells) {
+        CHECK(std::any_of(cells.begin(), cells.end(), [&](const LatticeCell& o) {
+            return std::hypot(o.site.x + c.site.x - 15.0, o.site.y + c.site.y - 15.0) < 1e-9;
+        }));
+    }
+}
+
 TEST_CASE("layers follow the stacking", "[lattice]")
 {
     const double r = 0.6, t = 1.3;

@@ -189,3 +189,23 @@ TEST_CASE("flat facets: one polygon where it is convex, convex pieces elsewhere"
     for (int k = 0; k < 60; ++k) disc.push_back({Vec3{}, rim(k), rim(k + 1)});
     for (const auto& p : convex_facets(StlFile(ascii(disc)).read(), 24)) CHECK(p.size() <= 24);
 }
+
+TEST_CASE("a flat plate with a hole is a few convex facets, however many triangles it has", "[stl]")
+{
+    Triangles plate;
+    constexpr int n = 30;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            if (i >= n / 3 && i < 2 * n / 3 && j >= n / 3 && j < 2 * n / 3) continue;
+            const auto at = [&](int k, int l) {
+                return Vec3{static_cast<double>(i + k), static_cast<double>(j + l), 0.0};
+            };
+            plate.push_back({at(0, 0), at(1, 0), at(1, 1)});
+            plate.push_back({at(0, 0), at(1, 1), at(0, 1)});
+        }
+    }
+    const auto facets = convex_facets(StlFile(ascii(plate)).read(), 24);
+    CAPTURE(facets.size());
+    CHECK(facets.size() < 100);
+    CHECK(area_of(facets) == Approx(n * n * 8.0 / 9.0));
+}

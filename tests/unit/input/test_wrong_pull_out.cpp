@@ -43,6 +43,12 @@ TEST_CASE("wrong keys of a pull-out are told with what is allowed", "[input]")
           "error: FILE:50: bonds[2].failure_slip = \"1 mm\": must be > 0.001 m, the yield_slip\n");
     CHECK(report("yield_slip      = \"1 mm\"\n", "") ==
           "error: FILE:45: bonds[2].yield_slip: missing; required with failure_slip\n");
+    // not the message of grains, whose interfaces have strengths
+    CHECK(report("shear_stiffness = \"1e9 Pa/m\"\n", "") ==
+          "error: FILE:45: bonds[2].shear_stiffness: missing; required for the interface of a fibre, such as \"1e9 "
+          "Pa/m\"\n");
+    CHECK(report("\"3 mm\"", "\"3 mm\"\ncontraction = 0.1") ==
+          "error: FILE:51: bonds[2].contraction = 0.1: has no meaning here; it goes with radial_pressure\n");
     CHECK(
         report("law     = \"parallel\"", "law     = \"point\"") ==
         "error: FILE:37: bonds[0].law = \"point\": \"point\" joins grains; spheres take \"parallel\" or \"spring\"\n");

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment/resources.h"
+
+#include "generate/sphere_region.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace grainfrac {
+
+namespace {
+
+// Measured: a disc of 3,056 grains with 16 points a face, a ball of 47,453 spheres with six bonds each; twice the
+// state, which a run holds when it writes or checks.
+constexpr double bytes_a_grain = 20e3, bytes_a_sphere = 11e3;
+/// Interface points and slots are counted in 32 bits; a grain of a lattice has ten faces of 16 points, halved.
+constexpr double most_bodies = 2e7;
+
+double chain_length(const FibreSpec& f)
+{
+    double length = norm(f.to - f.from);
+    if (f.shape == "wavy") {  // not longer than this
+        const double slope = 2.0 * std::numbers::pi * f.amplitude / f.wavelength;
+        return length * std::sqrt(1.0 + slope * slope);
+    }
+    if (f.shape == "hooked") return length + 2.0 * f.hook_length;
+    if (f.shape != "points") return length;
+    length = 0.0;
+    for (std::size_t i = 1; i < f.points.size(); ++i) length += norm(f.points[i] - f.points[i - 1]);
+    return length;
+}
+
+/// Cells of a lattice of prisms along z.
+double prisms(const PartSpec& p)
+{
+    const SphereRegion region(p.region);
+    const bool upright = region.shape == SphereRegion::Shape::cylinder && region.axis == 2;
+    const double area =
+        upright ? std::numbers::pi * region.radius * region.radius : 4.0 * region.half.x * region.half.y;
+    const double hexagon = 1.5 * std::numbers::sqrt3 * p.side * p.side;
+    return (area / hexagon + 1.0) * std::max(std::round(2.0 * region.half.z / p.thickness), 1.0);
+}
+
+/// Of a file with lines "NAME NUMBER ..."; 0 if there is none of this name.
+double value_in(const std::string& file, const std::string& wanted)
+{
+    std::ifstream in(file);
+    double value = 0.0;
+    for (std::string name, rest; in >> name >> value; std::getline(in, rest)) {
+        if (name == wanted) return value;
+    }
+    return 0.0;
+}
+
+}  // namespace
+
+double expected_bodies(const PartSpec& p)
+{
+    const double d3 = p.diameter * p.diameter * p.diameter;
+    if (p.generator == "hexagonal_prisms") return prisms(p);
+    if (p.generator == "hcp" || p.generator == "fcc") return SphereRegion(p.region).volume() * std::numbers::sqrt2 / d3;
+    if (p.generator == "random_dense")
+        return p.solid_fraction * SphereRegion(p.region).volume() / (std::numbers::pi / 6.0 * d3);
+    if (p.generator == "chain") {
+        const double spacing = p.fibre.spacing.value_or(p.diameter);
+        return (chain_length(p.fibre) / spacing + 1.0) * static_cast<double>(p.copies.size() + 1);
+    }
+    return 0.0;
+}
+
+double expected_memory(const Case& c)
+{
+    double bytes = 0.0;
+    for (const PartSpec& p : c.parts)
+        bytes += expected_bodies(p) * (p.kind == "spheres" ? bytes_a_sphere : bytes_a_grain);
+    return bytes;
+}
+
+double available_memory()
+{
+    double available = INFINITY;
+    if (const double kilobytes = value_in("/proc/meminfo", "MemAvailable:"); kilobytes > 0.0)
+        available = 1024.0 * kilobytes;
+    const std::string group = "/sys/fs/cgroup/memory";
+    double limit = 0.0, used = 0.0;
+    if (std::ifstream(group + ".max") >> limit && std::ifstream(group + ".current") >> used) {
+        const double cache = value_in(group + ".stat", "file");  // given back when it is needed
+        available = std::min(available, std::max(limit - used + cache, 0.0));
+    }
+    return available;
+}
+
+void check_resources(const Case& c)
+{
+    for (std::size_t k = 0; k < c.parts.size(); ++k) {
+        const double n = expected_bodies(c.parts[k]);
+        if (n <= most_bodies) continue;
+        if (std::isnan(n))
+            throw InputError(fmt::format("parts[{}]", k),
+                             "its lengths are so far apart, or so small, that no number tells "
+                             "how many bodies it has");
+        const char* what = c.parts[k].kind == "spheres" ? "spheres" : "grains";
+        throw InputError(fmt::format("parts[{}]", k),
+                         fmt::format("about {:.2g} {}; must be <= {:.0e}: make them larger or the region smaller", n,
+                                     what, most_bodies));
+    }
+    const double needed = expected_memory(c), available = available_memory();
+    if (needed <= available) return;
+    double bodies = 0.0;
+    for (const PartSpec& p : c.parts) bodies += expected_bodies(p);
+    throw std::runtime_error(fmt::format(
+        "about {:.2g} grains and spheres need {:.3g} GB of memory, {:.3g} GB are free; make them larger or the "
+        "regions smaller",
+        bodies, 1e-9 * needed, 1e-9 * available));
+}
+
+}  // namespace grainfrac
