@@ -49,7 +49,8 @@ int print_folder(const std::filesystem::path& folder)
             throw std::runtime_error(fmt::format("\"{}\" is damaged", (folder / "summary.json").string()));
         fmt::print("{}\n", summary.dump(2));
     } else if (std::filesystem::exists(folder / "resolved.toml")) {
-        fmt::print("{}: a run that has not ended (no summary.json)\n", folder.string());
+        fmt::print("{0}: a run that has not ended (no summary.json); if it is not at work: grainfrac resume {0}\n",
+                   folder.string());
     } else {
         throw InputError("DIR",
                          fmt::format("\"{}\" holds no results of grainfrac (neither summary.json nor resolved.toml)",

@@ -23,9 +23,8 @@ namespace {
 
 using namespace grainfrac;
 
-void add_case_options(CLI::App& command, Options& o)
+void add_run_options(CLI::App& command, Options& o)
 {
-    command.add_option("FILE", o.file, "input file (TOML)")->required();
     command.add_option("--set", o.overrides, "override a key: key.path=value, parsed as TOML; any number")
         ->allow_extra_args(false);
     command.add_option("--device", o.device, "auto, cpu or cuda")
@@ -35,6 +34,12 @@ void add_case_options(CLI::App& command, Options& o)
         ->check(CLI::Range(1, 4096));
     command.add_flag("-q,--quiet", o.quiet, "errors only");
     command.add_flag("-v,--verbose", o.verbose, "say more");
+}
+
+void add_case_options(CLI::App& command, Options& o)
+{
+    command.add_option("FILE", o.file, "input file (TOML)")->required();
+    add_run_options(command, o);
 }
 
 /// `grainfrac FILE.toml` means `grainfrac run FILE.toml`.
@@ -128,7 +133,13 @@ int main(int argc, char** argv)
         "an input file tells editors with taplo (Even Better TOML) to complete and check its keys.");
 
     auto* info = app.add_subcommand("info", "version, build options and devices; or what a result folder holds");
-    for (const char* later : {"resume", "report"}) {
+    auto* resume = app.add_subcommand("resume", "go on with a run that was interrupted or killed");
+    resume->add_option("DIR", o.out, "result folder")->required();
+    add_run_options(*resume, o);
+    resume->add_flag("--allow-changes", o.allow_changes, "go on although input.toml or --set changed the input");
+    resume->add_flag("--no-report", o.no_report, "no plots at the end");
+    resume->footer("Example: grainfrac resume brazilian.out");
+    for (const char* later : {"report"}) {
         auto* command = app.add_subcommand(later, "not available in this version")->group("")->prefix_command();
         command->callback([later] { throw CLI::ValidationError(later, "is not available in this version"); });
     }
@@ -144,6 +155,7 @@ int main(int argc, char** argv)
     }
     return guarded(o, [&] {
         if (*run) return run_command(o);
+        if (*resume) return resume_command(o);
         if (*generate) return generate_command(o);
         if (*check) return check_command(o);
         if (*calibrate) return calibrate_command(o);

@@ -14,6 +14,7 @@ struct Options {
     int threads = 0;                     ///< 0: all cores
     std::vector<std::string> overrides;  ///< key.path=value
     bool force = false;                  ///< replace an existing result folder
+    bool allow_changes = false;          ///< resume with another input
     bool no_report = false;              ///< leave plots out
     bool quiet = false, verbose = false;
 };
@@ -28,6 +29,7 @@ inline constexpr int terminated = 143;   ///< SIGTERM, after a checkpoint
 }  // namespace exit_code
 
 int run_command(const Options& options);
+int resume_command(const Options& options);
 int generate_command(const Options& options);
 int check_command(const Options& options);
 int calibrate_command(const Options& options);

@@ -34,13 +34,22 @@ Progress::Progress(bool quiet)
 {
 }
 
+void Progress::begin(const ProgressState& s)
+{
+    first_step_ = s.step;
+    first_done_ = s.done;
+    start_ = last_ = std::chrono::steady_clock::now();
+}
+
 std::string Progress::line(const ProgressState& s, double seconds) const
 {
     const double done = std::clamp(s.done, 0.0, 1.0);
-    const std::string left = done > 0.01 && seconds > 0.5 ? clock_text(seconds * (1.0 - done) / done) : "-:--";
-    std::string text = fmt::format(
-        "{}  step {}  t {:.4g} s  {:.0f} steps/s  {} left  broken {}  fragments {}  load {:.4g} N", s.stage, s.step,
-        s.time, seconds > 0.0 ? static_cast<double>(s.step) / seconds : 0.0, left, s.broken, s.fragments, s.load);
+    const double now_done = done - first_done_;
+    const std::string left = now_done > 0.01 && seconds > 0.5 ? clock_text(seconds * (1.0 - done) / now_done) : "-:--";
+    std::string text =
+        fmt::format("{}  step {}  t {:.4g} s  {:.0f} steps/s  {} left  broken {}  fragments {}  load {:.4g} N", s.stage,
+                    s.step, s.time, seconds > 0.0 ? static_cast<double>(s.step - first_step_) / seconds : 0.0, left,
+                    s.broken, s.fragments, s.load);
     if (!terminal_) return fmt::format("{:3.0f} %  {}", 100.0 * done, text);
     const int full = static_cast<int>(bar_width * done);
     return fmt::format("[{}{}] {:3.0f} %  {}", std::string(static_cast<std::size_t>(full), '#'),

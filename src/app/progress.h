@@ -21,6 +21,8 @@ struct ProgressState {
 class Progress {
 public:
     explicit Progress(bool quiet);
+    /// Where this process takes up the run: speed and time left count from here.
+    void begin(const ProgressState& s);
     void update(const ProgressState& s);
     /// Leaves the last state standing and ends the line.
     void finish(const ProgressState& s);
@@ -28,6 +30,8 @@ public:
 private:
     std::string line(const ProgressState& s, double seconds) const;
     bool quiet_, terminal_;
+    std::int64_t first_step_ = 0;
+    double first_done_ = 0.0;
     std::chrono::steady_clock::time_point start_, last_;
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/run.h"
+
 #include "app/prepare.h"
 #include "app/signals.h"
 #include "app/simulation.h"
@@ -30,9 +32,9 @@ std::string text_hash(const std::string& text)
     return fmt::format("{:016x}", h);
 }
 
-void open_log(const std::filesystem::path& folder, const Options& o)
+void open_log(const std::filesystem::path& folder, const Options& o, bool anew)
 {
-    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "run.log").string(), true);
+    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "run.log").string(), anew);
     auto screen = std::make_shared<spdlog::sinks::stderr_sink_mt>();
     screen->set_level(o.quiet ? spdlog::level::err : (o.verbose ? spdlog::level::debug : spdlog::level::warn));
     screen->set_pattern("%l: %v");
@@ -101,38 +103,28 @@ void print_outcome(const RunFacts& facts, const Built& b, const RunRecord& recor
 
 }  // namespace
 
-int run_command(const Options& o)
+RunFacts run_facts(const Case& c, const std::string& resolved, Device device)
 {
-    const Case c = load_case(o);
-    const std::string input_text = read_text(o.file);
-    const Device device = parse_device(o.device);
-    const auto before = std::chrono::steady_clock::now();
-    Built built = build_case(c, device);
-    const std::filesystem::path out = o.out.empty() ? std::filesystem::path(o.file).stem().string() + ".out" : o.out;
+    return {GRAINFRAC_VERSION, text_hash(resolved), to_string(device), c.simulation.seed, threads(), c.test.kind};
+}
 
-    RunRecord record;
-    RunFacts facts{GRAINFRAC_VERSION, "", to_string(device), c.simulation.seed, threads(), c.test.kind};
-    const std::string resolved = to_toml(c);
-    facts.input_hash = text_hash(resolved);
-    start_check(c, built);
-
-    ResultFolder folder(out, o.force);
-    folder.begin(facts, input_text, resolved);
-    open_log(out, o);
+int carry_out(const Case& c, const Options& o, const RunFacts& facts, const RunOrigin& origin, Built& built,
+              ResultFolder& folder, RunRecord& record, const Restart* restart)
+{
+    open_log(folder.path(), o, restart == nullptr);
     spdlog::info(
         "grainfrac {}: {} bodies, {} interfaces with {} points, {} parallel bonds, {} bonds of spheres, device {}, {} "
         "threads",
         GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
-        built.state.parallels.size(), built.state.sphere_bonds.size(), to_string(device), threads());
+        built.state.parallels.size(), built.state.sphere_bonds.size(), facts.device, threads());
     for (const std::string& warning : built.experiment.warnings) spdlog::warn("{}", warning);
-    record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-
-    for (const std::string& line : plausibility_warnings(c, built, choose_time_step(c, built.model, built.state)))
-        warn(record, "{}", line);
-
+    if (restart == nullptr) {  // else they are in the record
+        for (const std::string& line : plausibility_warnings(c, built, choose_time_step(c, built.model, built.state)))
+            warn(record, "{}", line);
+    }
     watch_signals();
     SnapshotFields fields;
-    const Ending ending = simulate(c, o, built, folder, record, fields);
+    const Ending ending = simulate(c, o, facts, origin, built, folder, record, fields, restart);
     if (ending.code == exit_code::unstable || ending.code == exit_code::wrong_input) spdlog::error("{}", ending.reason);
     warn_about_outcome(built, record);
     try {
@@ -142,9 +134,30 @@ int run_command(const Options& o)
         spdlog::warn("plots: {}", e.what());
     }
     spdlog::info("ended: {}", ending.reason);
-    if (!o.quiet) print_outcome(facts, built, record, ending, out);
+    if (!o.quiet) print_outcome(facts, built, record, ending, folder.path());
     spdlog::shutdown();
     return ending.code;
+}
+
+int run_command(const Options& o)
+{
+    survive_signals();
+    const Case c = load_case(o);
+    const std::string input_text = read_text(o.file);
+    const Device device = parse_device(o.device);
+    const auto before = std::chrono::steady_clock::now();
+    Built built = build_case(c, device);
+    const std::filesystem::path out = o.out.empty() ? std::filesystem::path(o.file).stem().string() + ".out" : o.out;
+    const std::string resolved = to_toml(c);
+    start_check(c, built);
+
+    RunRecord record;
+    const RunFacts facts = run_facts(c, resolved, device);
+    const RunOrigin origin = origin_of(c, o.overrides, resolved, device);
+    ResultFolder folder(out, o.force);
+    folder.begin(facts, input_text, resolved);
+    record.phases.build = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    return carry_out(c, o, facts, origin, built, folder, record);
 }
 
 }  // namespace grainfrac

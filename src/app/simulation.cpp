@@ -2,6 +2,7 @@
 #include "app/simulation.h"
 
 #include "app/progress.h"
+#include "app/run_state.h"
 #include "app/signals.h"
 #include "contact/find_contacts.h"
 #include "experiment/bond_stage.h"
@@ -9,6 +10,8 @@
 #include "experiment/specimen.h"
 #include "fracture/clusters.h"
 #include "fracture/grain_stress.h"
+#include "io/checkpoint.h"
+#include "io/folder_mark.h"
 #include "model/grain_body.h"
 #include "model/validate.h"
 #include "motion/servo.h"
@@ -24,6 +27,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -59,9 +63,10 @@ double seconds_since(Clock::time_point t)
 
 class Simulation {
 public:
-    Simulation(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record,
-               SnapshotFields& fields)
+    Simulation(const Case& c, const Options& o, const RunOrigin& origin, Built& built, ResultFolder& folder,
+               RunRecord& record, SnapshotFields& fields)
         : case_(c),
+          origin_(origin),
           model_(built.model),
           state_(built.state),
           experiment_(built.experiment),
@@ -73,60 +78,122 @@ public:
     {
     }
 
-    Ending run()
+    void begin()
     {
         start(model_, state_);
         choose_step();
         choose_intervals();
         for (int i = 0; i < state_.bodies.size(); ++i)
-            energy_floor_ +=
+            run_.energy_floor +=
                 negligible_energy * state_.bodies.mass[i] * experiment_.wave_speed * experiment_.wave_speed;
         record_.first_momentum = total_momentum(model_, state_);
         record_.cracks = CrackWatch(crack_scale(model_, state_));
-        if (case_.output.checkpoint > 0.0) checkpoint();
+        if (case_.output.checkpoint > 0.0 || case_.output.checkpoint_steps) checkpoint();
+    }
+
+    /// Instead of begin().
+    void restore(const RunFacts& facts, const Restart& restart)
+    {
+        const double build = record_.phases.build;
+        const RunOrigin now = origin_;
+        read_checkpoint(restart.checkpoint, facts.version, [&](Archive& archive) { transfer(archive); });
+        origin_ = now;
+        record_.phases.build += build;
+        if (restart.new_time_step) choose_step();
+        if (restart.new_intervals) choose_intervals();
+        folder_.go_on(facts, origin_.resolved, mark_, case_.test.profiles_at);
+        for (const auto& newer : restart.refused) {
+            spdlog::warn("{} is damaged or of another version: set aside as {}.refused", newer.string(),
+                         newer.filename().string());
+            set_aside(newer);
+        }
+        spdlog::info("goes on from {}, step {}, t = {:.6g} s{}", restart.checkpoint.string(), state_.step, state_.time,
+                     restart.input_changed ? ", with a changed input" : "");
+        if (restart.input_changed) checkpoint();  // older ones know nothing of the change
+        last_checkpoint_ = Clock::now();
+        last_checkpoint_step_ = state_.step;
+    }
+
+    Ending run()
+    {
         Ending ending{exit_code::done, "all stages done"};
-        for (std::size_t k = 0; k < experiment_.stages.size(); ++k) {
-            const Stage& stage = experiment_.stages[k];
-            spdlog::info("stage \"{}\"", stage.name);
-            begin_stage(stage, model_, state_);
-            if (!stage.released.empty()) shorten_step_if_needed(time_step_bound(model_, state_));
-            if (static_cast<int>(k) == experiment_.reference_stage) begin_reference();
-            remember_begin(stage);
-            if (state_.step == 0) record_row(stage);
+        const auto stages = static_cast<std::int64_t>(experiment_.stages.size());
+        progress_.begin(progress(experiment_.stages[static_cast<std::size_t>(run_.stage)]));
+        for (; run_.stage < stages; ++run_.stage, run_.stage_begun = false) {
+            const Stage& stage = experiment_.stages[static_cast<std::size_t>(run_.stage)];
+            spdlog::info("stage \"{}\"{}", stage.name, run_.stage_begun ? " goes on" : "");
+            if (!run_.stage_begun) begin(stage);
             if (experiment_.pull_out && experiment_.pull_out->quasi_static)
                 ending = run_path(stage);
             else
-                ending = stage.bonds ? bond_stage(stage, k) : run_stage(stage);
+                ending = stage.bonds ? bond_stage(stage) : run_stage(stage);
             if (!finished_stage_) break;
             if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time) break;
         }
         if (ending.code == exit_code::done) last_snapshot(experiment_.stages.back());
         record_.last_momentum = total_momentum(model_, state_);
-        record_.time_step = dt_;
+        record_.time_step = run_.dt;
         progress_.finish(progress(experiment_.stages.back()));
         return ending;
     }
 
 private:
+    void begin(const Stage& stage)
+    {
+        begin_stage(stage, model_, state_);
+        if (!stage.released.empty()) shorten_step_if_needed(time_step_bound(model_, state_));
+        if (run_.stage == experiment_.reference_stage) begin_reference();
+        remember_begin(stage);
+        if (state_.step == 0) record_row(stage);
+        run_.stage_begun = true;
+    }
+
+    /// All that the run needs to go on, for both directions. Members that are not here hold nothing from one step to
+    /// the next.
+    void transfer(Archive& archive)
+    {
+        archive("/origin", origin_);
+        grainfrac::transfer(archive, "/model", model_);
+        grainfrac::transfer(archive, "/state", state_);
+        archive("/run", run_);
+        archive("/record", record_);
+        archive("/fields", fields_);
+        archive("/specimen", experiment_.specimen);
+        if (experiment_.pull_out) archive("/equilibria", experiment_.pull_out->path);
+        bool on_path = path_.has_value();
+        archive("/on_path", on_path);
+        if (archive.loading()) {
+            if (const std::string why = why_not_valid(model_, state_); !why.empty()) archive.fail(why);
+            if (run_.stage < 0 || run_.stage >= static_cast<std::int64_t>(experiment_.stages.size()) ||
+                static_cast<int>(model_.grain_shapes.size()) != state_.bodies.size() ||
+                (on_path && !experiment_.pull_out))
+                archive.fail("was made from another input");
+            path_.reset();
+            if (on_path) make_path();
+        }
+        if (on_path) archive("/path", *path_);
+        archive("/folder", mark_);
+    }
+
     void choose_step()
     {
         const ChosenStep s = choose_time_step(case_, model_, state_);
-        dt_ = s.dt;
+        run_.dt = s.dt;
         record_.critical_step = s.critical;
         record_.limiter = s.limiter;
-        spdlog::info("time step {:.4g} s, stability limit {:.4g} s ({})", dt_, s.critical, s.limiter);
+        spdlog::info("time step {:.4g} s, stability limit {:.4g} s ({})", run_.dt, s.critical, s.limiter);
     }
 
     void choose_intervals()
     {
         const double expected = experiment_.expected_duration;
-        history_ =
-            case_.output.history.value_or(expected > 0.0 ? std::max(expected / automatic_rows, dt_) : 100.0 * dt_);
+        run_.history = case_.output.history.value_or(expected > 0.0 ? std::max(expected / automatic_rows, run_.dt)
+                                                                    : 100.0 * run_.dt);
         const double count =
             case_.output.snapshots ? static_cast<double>(*case_.output.snapshots) : automatic_snapshots;
-        every_ = case_.output.every.value_or(expected > 0.0 ? expected / count : 5000.0 * dt_);
-        record_.history_interval = history_;
-        record_.snapshot_interval = every_;
+        run_.every = case_.output.every.value_or(expected > 0.0 ? expected / count : 5000.0 * run_.dt);
+        record_.history_interval = run_.history;
+        record_.snapshot_interval = run_.every;
     }
 
     Ending run_stage(const Stage& stage)
@@ -135,15 +202,15 @@ private:
         while (true) {
             if (state_.step % steps_between_checks == 0 && state_.step > 0)
                 shorten_step_if_needed(time_step_bound(model_, state_));
-            const bool snapshot = state_.time + 0.5 * dt_ >= next_snapshot_;
+            const bool snapshot = state_.time + 0.5 * run_.dt >= run_.next_snapshot;
             const bool cleave = !cleavage_.empty() && stage.cleavage;
             const bool ask_gate = cleave && gate_is_due(state_);
             const auto before = Clock::now();
-            step(model_, state_, dt_, snapshot || ask_gate);
+            step(model_, state_, run_.dt, snapshot || ask_gate);
             record_.phases.steps += seconds_since(before);
             // a snapshot waits for the step after a split, when the stresses of the parts are known
             if (!(cleave && split_where_due(ask_gate)) && snapshot) write_snapshot();
-            if (state_.time + 0.5 * dt_ >= next_history_ || time_is_up(stage)) {
+            if (state_.time + 0.5 * run_.dt >= run_.next_history || time_is_up(stage)) {
                 record_row(stage);
                 if (const std::string why = why_unstable(); !why.empty())
                     return {exit_code::unstable, "unstable: " + why};
@@ -154,19 +221,13 @@ private:
                 }
                 progress_.update(progress(stage));
             }
-            if (const int signal = pending_signal(); signal != 0) {
-                checkpoint();
-                return {128 + signal, signal == 2 ? "interrupted by SIGINT" : "terminated by SIGTERM"};
-            }
-            if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint)
-                checkpoint();
+            if (pending_signal() != 0) return stop_for_signal();
+            if (checkpoint_is_due()) checkpoint();
         }
     }
 
-    /// A row of equilibria instead of time steps.
-    Ending run_path(const Stage& stage)
+    void make_path()
     {
-        finished_stage_ = false;
         const PullOut& p = *experiment_.pull_out;
         PathSettings s;
         double failure = 0.0;
@@ -179,14 +240,24 @@ private:
         s.slide = case_.test.slide_step.value_or(p.length / 60.0);
         s.slides = case_.test.stop.slip.has_value();
         s.relax.tolerance = case_.test.relaxed;
-        PullOutPath path(p, s, model_, state_);
+        path_.emplace(p, s, model_, state_);
+    }
+
+    /// A row of equilibria instead of time steps.
+    Ending run_path(const Stage& stage)
+    {
+        finished_stage_ = false;
+        if (!path_) make_path();
         while (true) {
             const auto before = Clock::now();
-            const PullOutPath::Found found = path.next(model_, state_, [] { return pending_signal() != 0; });
+            const State last_state = state_;
+            const PullOutPath last_path = *path_;
+            const PullOutPath::Found found = path_->next(model_, state_, [] { return pending_signal() != 0; });
             record_.phases.steps += seconds_since(before);
-            if (const int signal = pending_signal(); signal != 0) {
-                checkpoint();
-                return {128 + signal, signal == 2 ? "interrupted by SIGINT" : "terminated by SIGTERM"};
+            if (pending_signal() != 0) {  // a relaxation is not broken off and taken up again with the same bits
+                state_ = last_state;
+                path_.emplace(last_path);
+                return stop_for_signal();
             }
             if (found == PullOutPath::Found::end) {
                 finished_stage_ = true;
@@ -196,7 +267,7 @@ private:
                 return {exit_code::unstable,
                         fmt::format("unstable: no equilibrium after {} steps, the mean residual is {:.2g} of the mean "
                                     "force of the bonds; raise test.relaxed, or hold what can move freely",
-                                    path.last().steps, path.last().residual)};
+                                    path_->last().steps, path_->last().residual)};
             }
             if (found == PullOutPath::Found::not_softening) {
                 return {
@@ -205,17 +276,16 @@ private:
                     "use test.control = \"displacement\""};
             }
             record_row(stage);
-            spdlog::debug("equilibrium {}: {} steps, residual {:.2g}", state_.time, path.last().steps,
-                          path.last().residual);
-            if (state_.time >= next_snapshot_) write_snapshot_at_rest();
+            spdlog::debug("equilibrium {}: {} steps, residual {:.2g}", state_.time, path_->last().steps,
+                          path_->last().residual);
+            if (state_.time >= run_.next_snapshot) write_snapshot_at_rest();
             if (const std::string why = why_unstable(); !why.empty()) return {exit_code::unstable, "unstable: " + why};
             if (const std::string why = why_path_ended(); !why.empty()) {
                 finished_stage_ = true;
                 return {exit_code::done, why};
             }
             progress_.update(progress(stage));
-            if (case_.output.checkpoint > 0.0 && seconds_since(last_checkpoint_) > case_.output.checkpoint)
-                checkpoint();
+            if (checkpoint_is_due()) checkpoint();
         }
     }
 
@@ -263,16 +333,16 @@ private:
 
     void remember_begin(const Stage& stage)
     {
-        stage_start_ = state_.time;
-        stage_kinetic_ = 0.0;
-        stage_body_ = -1;
-        for (int i = 0; i < state_.bodies.size() && stage_body_ < 0 && stage.loaded_wall >= 0; ++i) {
-            if (state_.bodies.wall[i] == stage.loaded_wall) stage_body_ = i;
+        run_.stage_start = state_.time;
+        run_.stage_kinetic = 0.0;
+        run_.stage_body = -1;
+        for (int i = 0; i < state_.bodies.size() && run_.stage_body < 0 && stage.loaded_wall >= 0; ++i) {
+            if (state_.bodies.wall[i] == stage.loaded_wall) run_.stage_body = i;
         }
-        if (stage_body_ >= 0) stage_origin_ = state_.bodies.position[stage_body_];
-        stage_section_ =
+        if (run_.stage_body >= 0) run_.stage_origin = state_.bodies.position[run_.stage_body];
+        run_.stage_section =
             stage.stress ? section_across(specimen_extent(model_, state_).size(), stage.load_direction) : 0.0;
-        stage_peak_ = stage_first_load_ = stage.unloads ? stage_load(stage) : 0.0;
+        run_.stage_peak = run_.stage_first_load = stage.unloads ? stage_load(stage) : 0.0;
     }
     /// Push of the first wall that the stage moves; of ready-made tests and stages that move none, the test's load [N].
     double stage_load(const Stage& stage) const
@@ -284,14 +354,14 @@ private:
     double stage_displacement() const
     {
         if (experiment_.kind != "custom") return record_.rows.back().displacement;
-        return stage_body_ < 0 ? 0.0 : norm(state_.bodies.position[stage_body_] - stage_origin_);
+        return run_.stage_body < 0 ? 0.0 : norm(state_.bodies.position[run_.stage_body] - run_.stage_origin);
     }
 
     /// Bonds between what faces each other now; takes no time.
-    Ending bond_stage(const Stage& stage, std::size_t k)
+    Ending bond_stage(const Stage& stage)
     {
         const auto refused = [&](const std::string& why) {
-            return Ending{exit_code::wrong_input, fmt::format("stages[{}]: {}", k, why)};
+            return Ending{exit_code::wrong_input, fmt::format("stages[{}]: {}", run_.stage, why)};
         };
         finished_stage_ = false;
         BondsMade made;
@@ -315,12 +385,12 @@ private:
             made.number, made.area, made.removed_energy, p.x, p.y, p.z, L.x, L.y, L.z);
         if (!case_.control.time_step) {
             choose_step();
-        } else if (const TimeStepBound bound = time_step_bound(model_, state_); dt_ > bound.with_damping) {
+        } else if (const TimeStepBound bound = time_step_bound(model_, state_); run_.dt > bound.with_damping) {
             return {exit_code::wrong_input, fmt::format("control.time_step: must be <= {:.4g} s, the stability limit "
                                                         "once the bonds are made ({})",
                                                         bound.with_damping, bound.limiter)};
         }
-        broken_ = -1;  // fragments are to be counted anew
+        run_.broken = -1;  // fragments are to be counted anew
         record_row(stage);
         finished_stage_ = true;
         return {exit_code::done, fmt::format("{} bonds made", made.number)};
@@ -331,11 +401,11 @@ private:
         if (case_.control.time_step) return;
         if (bound.body < 0) return;
         const double allowed = case_.control.time_step_safety * bound.with_damping;
-        if (allowed >= dt_) return;
-        const bool worth_a_line = allowed < (1.0 - logged_change) * dt_;
+        if (allowed >= run_.dt) return;
+        const bool worth_a_line = allowed < (1.0 - logged_change) * run_.dt;
         if (worth_a_line)
-            spdlog::info("step {}: time step {:.4g} -> {:.4g} s ({})", state_.step, dt_, allowed, bound.limiter);
-        dt_ = allowed;
+            spdlog::info("step {}: time step {:.4g} -> {:.4g} s ({})", state_.step, run_.dt, allowed, bound.limiter);
+        run_.dt = allowed;
         record_.critical_step = bound.with_damping;
         record_.limiter = bound.limiter;
     }
@@ -347,7 +417,7 @@ private:
         std::vector<Mat3> stress;
         if (ask_gate) stress = grain_stress(model_, state_);
         const std::vector<SplitRequest> due =
-            look_for_splits(model_, state_, ask_gate ? &stress : nullptr, cleavage_, dt_);
+            look_for_splits(model_, state_, ask_gate ? &stress : nullptr, cleavage_, run_.dt);
         record_.phases.looks += seconds_since(before);
         return !due.empty() && split(due);
     }
@@ -373,11 +443,11 @@ private:
                 throw std::logic_error("a split made an impossible state: " + why);
             const TimeStepBound bound = time_step_bound(model_, state_, parts);
             shorten_step_if_needed(bound);
-            if (case_.control.time_step && bound.body >= 0 && dt_ > bound.with_damping) {
-                too_long_ = fmt::format(
+            if (case_.control.time_step && bound.body >= 0 && run_.dt > bound.with_damping) {
+                run_.too_long = fmt::format(
                     "control.time_step = {:.4g} s is above the stability limit {:.4g} s since a grain was split ({}); "
                     "shorten it, or leave it out",
-                    dt_, bound.with_damping, bound.limiter);
+                    run_.dt, bound.with_damping, bound.limiter);
                 record_.critical_step = bound.with_damping;
                 record_.limiter = bound.limiter;
             }
@@ -417,7 +487,7 @@ private:
         r.nominal_strain = m.strain;
         r.nominal_stress = m.stress;
         r.energy = energy_ledger(model_, state_);
-        r.energy.negligible = energy_floor_;
+        r.energy.negligible = run_.energy_floor;
         r.unbalanced_force_ratio = unbalanced_force_ratio(state_);
         r.platen_imbalance = m.platen_imbalance;
         count_broken(r);
@@ -440,9 +510,9 @@ private:
             record_.peak_displacement = m.displacement;
             record_.imbalance_at_peak = m.platen_imbalance;
         }
-        stage_peak_ = std::max(stage_peak_, stage_load(stage));
-        stage_kinetic_ = std::max(stage_kinetic_, r.energy.kinetic);
-        next_history_ = state_.time + history_;
+        run_.stage_peak = std::max(run_.stage_peak, stage_load(stage));
+        run_.stage_kinetic = std::max(run_.stage_kinetic, r.energy.kinetic);
+        run_.next_history = state_.time + run_.history;
         record_.phases.output += seconds_since(before);
     }
 
@@ -462,19 +532,19 @@ private:
         count(state_.parallels);
         count(state_.sphere_bonds);
         const std::int64_t broken = r.broken_bonds_tension + r.broken_bonds_shear;
-        if (broken != broken_ || record_.rows.empty()) {
+        if (broken != run_.broken || record_.rows.empty()) {
             const std::vector<std::int32_t> cluster = bonded_clusters(state_);
-            fragments_ = static_cast<std::int64_t>(std::set<std::int32_t>(cluster.begin(), cluster.end()).size()) -
-                         (std::find(cluster.begin(), cluster.end(), -1) != cluster.end() ? 1 : 0);
-            broken_ = broken;
+            run_.fragments = static_cast<std::int64_t>(std::set<std::int32_t>(cluster.begin(), cluster.end()).size()) -
+                             (std::find(cluster.begin(), cluster.end(), -1) != cluster.end() ? 1 : 0);
+            run_.broken = broken;
             record_.cracks.look(model_, state_);
         }
-        r.fragments = fragments_;
+        r.fragments = run_.fragments;
     }
 
     std::string why_unstable() const
     {
-        if (!too_long_.empty()) return too_long_;
+        if (!run_.too_long.empty()) return run_.too_long;
         if (const int pair = penetrating_pair(model_, state_); pair >= 0) {
             return fmt::format(
                 "the cores of bodies {} and {} penetrate; the contact is too soft or something moves too fast: raise "
@@ -497,13 +567,13 @@ private:
     {
         const bool test_over =
             experiment_.kind == "custom" && case_.test.stop.time && state_.time >= *case_.test.stop.time;
-        return test_over || (s.duration && state_.time - stage_start_ >= *s.duration);
+        return test_over || (s.duration && state_.time - run_.stage_start >= *s.duration);
     }
 
     std::string why_ended(const Stage& s) const
     {
         const HistoryRow& r = record_.rows.back();
-        if (s.duration && state_.time - stage_start_ >= *s.duration)
+        if (s.duration && state_.time - run_.stage_start >= *s.duration)
             return fmt::format("time {:.4g} s reached", state_.time);
         if (s.displacement && stage_displacement() >= *s.displacement) {
             return fmt::format("displacement {:.4g} m reached", stage_displacement());
@@ -514,25 +584,26 @@ private:
         const double load = stage_load(s);
         const auto reached = [&](double wanted) { return s.unloads ? load <= wanted : load >= wanted; };
         if (s.load && reached(*s.load)) return fmt::format("load {:.5g} N reached", load);
-        if (s.stress && reached(*s.stress * stage_section_))
-            return fmt::format("stress {:.5g} Pa reached", load / stage_section_);
-        if (s.load_drop && s.unloads && load <= (1.0 - *s.load_drop) * stage_first_load_)
-            return fmt::format("load went back from {:.5g} to {:.5g} N", stage_first_load_, load);
-        if (s.load_drop && !s.unloads && broken_or_damaged() && load < (1.0 - *s.load_drop) * stage_peak_) {
-            return fmt::format("load dropped by {:.0f} % from its peak {:.5g} N", 100.0 * *s.load_drop, stage_peak_);
+        if (s.stress && reached(*s.stress * run_.stage_section))
+            return fmt::format("stress {:.5g} Pa reached", load / run_.stage_section);
+        if (s.load_drop && s.unloads && load <= (1.0 - *s.load_drop) * run_.stage_first_load)
+            return fmt::format("load went back from {:.5g} to {:.5g} N", run_.stage_first_load, load);
+        if (s.load_drop && !s.unloads && broken_or_damaged() && load < (1.0 - *s.load_drop) * run_.stage_peak) {
+            return fmt::format("load dropped by {:.0f} % from its peak {:.5g} N", 100.0 * *s.load_drop,
+                               run_.stage_peak);
         }
         // what a moving wall has not reached yet is not at rest
-        const bool settled = state_.time > stage_start_ + s.ramp && (s.loaded_wall < 0 || load > 0.0) &&
+        const bool settled = state_.time > run_.stage_start + s.ramp && (s.loaded_wall < 0 || load > 0.0) &&
                              (s.servos.empty() || servos_hold(model_, state_));
         if (s.unbalanced_force_ratio && settled && r.unbalanced_force_ratio < *s.unbalanced_force_ratio)
             return fmt::format("unbalanced force ratio below {:.2g}", *s.unbalanced_force_ratio);
-        const bool still = r.energy.kinetic <= energy_floor_;  // nothing moved, or round-off does
+        const bool still = r.energy.kinetic <= run_.energy_floor;  // nothing moved, or round-off does
         if (s.rest && settled &&
-            (still || (r.energy.kinetic < *s.rest * stage_kinetic_ && r.unbalanced_force_ratio < balanced)))
+            (still || (r.energy.kinetic < *s.rest * run_.stage_kinetic && r.unbalanced_force_ratio < balanced)))
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
-        const double lasted = state_.time - rest_start_;
+        const double lasted = state_.time - run_.rest_start;
         if (s.rest_energy && lasted >= s.rest_time &&
-            std::fabs(rest_impulse_ - s.weight * lasted) < balanced * s.weight * lasted)
+            std::fabs(run_.rest_impulse - s.weight * lasted) < balanced * s.weight * lasted)
             return fmt::format("at rest, kinetic energy {:.2g} J", r.energy.kinetic);
         if (case_.test.stop.time && experiment_.kind == "custom" && state_.time >= *case_.test.stop.time)
             return "stop.time reached";
@@ -542,15 +613,15 @@ private:
     void watch_rest(const Stage& s, const HistoryRow& r)
     {
         if (!s.rest_energy || record_.rows.empty() || r.energy.kinetic >= *s.rest_energy) {
-            rest_start_ = r.time;
-            rest_impulse_ = 0.0;
+            run_.rest_start = r.time;
+            run_.rest_impulse = 0.0;
             return;
         }
         const HistoryRow& before = record_.rows.back();
-        rest_impulse_ += 0.5 * (before.load + r.load) * (r.time - before.time);
+        run_.rest_impulse += 0.5 * (before.load + r.load) * (r.time - before.time);
     }
     /// A load drop counts only once something failed: waves make the load of a platen dip at first touch.
-    bool broken_or_damaged() const { return broken_ > 0; }
+    bool broken_or_damaged() const { return run_.broken > 0; }
 
     ProgressState progress(const Stage& s) const
     {
@@ -563,7 +634,7 @@ private:
             p.load = record_.rows.back().load;
             p.fragments = record_.rows.back().fragments;
         }
-        p.broken = broken_;
+        p.broken = run_.broken;
         return p;
     }
 
@@ -574,7 +645,7 @@ private:
         fields_.cleavage = find_cleavage(model_, state_, fields_.stress, cleavage_);
         fields_.cluster = bonded_clusters(state_);
         folder_.write_snapshot(model_, state_, fields_, case_.output.contacts);
-        next_snapshot_ = state_.time + every_;
+        run_.next_snapshot = state_.time + run_.every;
         record_.phases.output += seconds_since(before);
     }
 
@@ -582,23 +653,41 @@ private:
     void last_snapshot(const Stage& stage)
     {
         if (experiment_.pull_out && experiment_.pull_out->quasi_static) return write_snapshot_at_rest();
-        step(model_, state_, dt_, true);
+        step(model_, state_, run_.dt, true);
         record_row(stage);
         write_snapshot();
+    }
+
+    bool checkpoint_is_due() const
+    {
+        const OutputSpec& o = case_.output;
+        return (o.checkpoint > 0.0 && seconds_since(last_checkpoint_) > o.checkpoint) ||
+               (o.checkpoint_steps && state_.step - last_checkpoint_step_ >= *o.checkpoint_steps) ||
+               checkpoint_asked_for();
     }
 
     /// A state that is not possible is never written over a good one.
     void checkpoint()
     {
-        last_checkpoint_ = Clock::now();
         if (const std::string why = why_not_valid(model_, state_); !why.empty()) {
             spdlog::warn("no checkpoint: {}", why);
-            return;
+        } else {
+            mark_ = folder_.mark();
+            folder_.write_checkpoint(state_.step, [&](Archive& archive) { transfer(archive); });
         }
-        folder_.write_checkpoint(model_, state_);
+        last_checkpoint_ = Clock::now();
+        last_checkpoint_step_ = state_.step;
+    }
+
+    Ending stop_for_signal()
+    {
+        const int signal = pending_signal();
+        checkpoint();
+        return {128 + signal, signal == 2 ? "interrupted by SIGINT" : "terminated by SIGTERM"};
     }
 
     const Case& case_;
+    RunOrigin origin_;
     Model& model_;
     State& state_;
     Experiment& experiment_;
@@ -607,16 +696,11 @@ private:
     RunRecord& record_;
     SnapshotFields& fields_;
     Progress progress_;
-    double dt_ = 0.0, history_ = 0.0, every_ = 0.0;
-    double next_history_ = 0.0, next_snapshot_ = 0.0;
-    double stage_start_ = 0.0, stage_peak_ = 0.0, stage_first_load_ = 0.0, stage_section_ = 0.0, stage_kinetic_ = 0.0;
-    int stage_body_ = -1;
-    Vec3 stage_origin_;
-    bool finished_stage_ = false;
-    double rest_start_ = 0.0, rest_impulse_ = 0.0;  // [s], [N s]
-    std::string too_long_;                          // why a time step that the user fixed is no longer stable
-    std::int64_t broken_ = 0, fragments_ = 0;
-    double energy_floor_ = 0.0;  // [J]
+    RunState run_;
+    std::optional<PullOutPath> path_;  // of a stage that is a row of equilibria
+    FolderMark mark_;                  // of the checkpoint that is being written or was read
+    bool finished_stage_ = false;      // the stage that just ran
+    std::int64_t last_checkpoint_step_ = 0;
     Clock::time_point last_checkpoint_;
 };
 
@@ -634,10 +718,15 @@ void monitor_quasi_static(RunRecord& record)
 
 }  // namespace
 
-Ending simulate(const Case& c, const Options& o, Built& built, ResultFolder& folder, RunRecord& record,
-                SnapshotFields& last_fields)
+Ending simulate(const Case& c, const Options& o, const RunFacts& facts, const RunOrigin& origin, Built& built,
+                ResultFolder& folder, RunRecord& record, SnapshotFields& last_fields, const Restart* restart)
 {
-    const Ending ending = Simulation(c, o, built, folder, record, last_fields).run();
+    Simulation simulation(c, o, origin, built, folder, record, last_fields);
+    if (restart != nullptr)
+        simulation.restore(facts, *restart);
+    else
+        simulation.begin();
+    const Ending ending = simulation.run();
     const auto bodies = static_cast<std::size_t>(built.state.bodies.size());
     if (ending.code != exit_code::done) last_fields.cluster = bonded_clusters(built.state);
     if (last_fields.stress.size() != bodies) {  // stopped before its first snapshot, or after a split since its last

@@ -36,6 +36,19 @@ public:
     Found next(Model& model, State& state, const std::function<bool()>& interrupted);
     const Relaxed& last() const { return last_; }
 
+    template <class Visit>  // all that it remembers from one state to the next
+    void for_each_member(Visit&& visit)
+    {
+        auto& [pull_out, settings, relaxation, last, force_before, position_before, started] = *this;
+        (void)pull_out;                                  // the experiment's
+        visit("may_fracture", settings.relax.fracture);  // the rest is the input's
+        visit("relaxation", relaxation);
+        visit("last", last);
+        visit("force_before", force_before);
+        visit("position_before", position_before);
+        visit("started", started);
+    }
+
 private:
     bool relax(Model& model, State& state, const std::function<bool()>& interrupted);
     Found to_softening(Model& model, State& state, const std::function<bool()>& interrupted);

@@ -110,6 +110,12 @@ void commit_file(const std::filesystem::path& path)
     sync_folder(path.parent_path());
 }
 
+void sync_file(const std::filesystem::path& path)
+{
+    const Descriptor file(path, O_RDONLY);
+    if (file.get() < 0 || ::fsync(file.get()) != 0) fail(path, "write", errno);
+}
+
 std::string read_file(const std::filesystem::path& path)
 {
     std::ifstream file(path, std::ios::binary);

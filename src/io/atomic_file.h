@@ -23,6 +23,9 @@ void reserve_room(const std::filesystem::path& path, std::size_t bytes);
 /// The second half, for a file that some library wrote to aside(path).
 void commit_file(const std::filesystem::path& path);
 
+/// What was written to the file so far is on disk, not only with the operating system.
+void sync_file(const std::filesystem::path& path);
+
 /// Whole file. Throws std::runtime_error.
 std::string read_file(const std::filesystem::path& path);
 

@@ -44,6 +44,15 @@ public:
     /// To be called after faces have broken. Cheap once both are known.
     void look(const Model& model, const State& state);
 
+    template <class Visit>
+    void for_each_member(Visit&& visit)
+    {
+        auto& [scale, first, macroscopic] = *this;
+        visit("scale", scale);
+        visit("first", first);
+        visit("macroscopic", macroscopic);
+    }
+
     const CrackScale& scale() const { return scale_; }
     const std::optional<CrackStart>& first() const { return first_; }
     const std::optional<MacroscopicCrack>& macroscopic() const { return macroscopic_; }

@@ -70,6 +70,7 @@ hid_t stored_type(hid_t native)
     if (H5Tequal(native, H5T_NATIVE_INT32) > 0) return H5T_STD_I32LE;
     if (H5Tequal(native, H5T_NATIVE_INT64) > 0) return H5T_STD_I64LE;
     if (H5Tequal(native, H5T_NATIVE_UINT64) > 0) return H5T_STD_U64LE;
+    if (H5Tequal(native, H5T_NATIVE_UINT8) > 0) return H5T_STD_U8LE;
     return native;
 }
 
@@ -119,16 +120,48 @@ void Hdf5Growing::write_block(const Extents& offset, const Extents& count, hid_t
         fail_at(where_, "write");
 }
 
+void Hdf5Growing::copy_from(const Hdf5File& file, const Extents& extents)
+{
+    constexpr hsize_t most_entries = hsize_t{1} << 20;  // at once
+    const auto fail = [&](const std::string& what) {
+        throw std::runtime_error(file.path_.string() + ": " + name_ + ": " + what);
+    };
+    const Extents there = file.extents(name_);
+    hsize_t per_row = 1;
+    for (std::size_t d = 0; d < extents.size(); ++d) {
+        if (there.size() != extents.size() || extents_.size() != extents.size() || there[d] < extents[d])
+            fail("holds less than at the checkpoint");
+        if (d > 0) per_row *= extents[d];
+    }
+    const Hdf5Id from(H5Dopen2(file.file_.get(), name_.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Id space(H5Dget_space(from.get()), H5Sclose);
+    const hsize_t rows_at_once = std::max<hsize_t>(1, most_entries / std::max<hsize_t>(1, per_row));
+    std::vector<char> block;
+    if (H5Dset_extent(dataset_.get(), extents.data()) < 0) fail_at(where_, "grow");
+    extents_ = extents;
+    for (hsize_t row = 0; per_row > 0 && row < extents[0]; row += rows_at_once) {
+        Extents offset(extents.size(), 0), count = extents;
+        offset[0] = row;
+        count[0] = std::min(rows_at_once, extents[0] - row);
+        block.resize(count[0] * per_row * H5Tget_size(type_));
+        const Hdf5Id memory = simple_space(count);
+        if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr) < 0 ||
+            H5Dread(from.get(), type_, memory.get(), space.get(), H5P_DEFAULT, block.data()) < 0)
+            fail("cannot be read: " + hdf5_reason());
+        write_block(offset, count, type_, block.data(), count[0] * per_row);
+    }
+}
+
 void Hdf5Growing::flush()
 {
     if (H5Dflush(dataset_.get()) < 0) fail_at(where_, "flush");
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path)
+Hdf5File Hdf5File::create(const std::filesystem::path& path, const std::filesystem::path& shown)
 {
     set_up();
     Hdf5File file;
-    file.path_ = path;
+    file.path_ = shown.empty() ? path : shown;
     const Hdf5Id access = newest_format();
     file.file_ = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
     if (file.file_.get() < 0) file.fail("create");
@@ -249,7 +282,9 @@ Hdf5Growing Hdf5File::create_growing(const std::string& name, int growing, const
 {
     constexpr unsigned deflate_level = 1;  // higher ones take several times as long for a few per cent
     Hdf5Growing result;
+    result.name_ = name;
     result.where_ = path_.string() + ": " + name;
+    result.type_ = type;
     result.extents_ = chunk;
     std::fill_n(result.extents_.begin(), growing, 0);
     std::vector<hsize_t> most = chunk;
@@ -268,6 +303,11 @@ Hdf5Growing Hdf5File::create_growing(const std::string& name, int growing, const
     if (result.dataset_.get() < 0) fail("create " + name);
     set_attribute(name, "unit", unit);
     return result;
+}
+
+void Hdf5File::sync() const
+{
+    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail("flush");
 }
 
 void Hdf5File::start_live()

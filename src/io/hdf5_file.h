@@ -41,7 +41,10 @@ hid_t hdf5_type()
     if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
     if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
     if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
+    if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
 }
+
+class Hdf5File;
 
 /// A dataset whose extents grow, up to three of them: rows are added, or a block is set anywhere.
 class Hdf5Growing {
@@ -58,12 +61,16 @@ public:
     /// Readers of a live file see everything written so far.
     void flush();
     hsize_t rows() const { return extents_.empty() ? 0 : extents_[0]; }
+    const Extents& extents() const { return extents_; }
+    /// Fill this empty dataset with the first `extents` entries of the one of the same name in another file.
+    void copy_from(const Hdf5File& file, const Extents& extents);
 
 private:
     friend class Hdf5File;
     void write_block(const Extents& offset, const Extents& count, hid_t type, const void* values, std::size_t size);
 
-    std::string where_;  // "FILE: /group/name", for messages
+    std::string name_, where_;  // "/group/name"; "FILE: /group/name", for messages
+    hid_t type_ = H5I_INVALID_HID;
     Hdf5Id dataset_;
     Extents extents_;
 };
@@ -71,7 +78,8 @@ private:
 class Hdf5File {
 public:
     /// New file, an old one is cut to nothing. Format 1.10: SWMR, and metadata carries checksums.
-    static Hdf5File create(const std::filesystem::path& path);
+    /// `shown`: the name in messages, of a file that gets its own later.
+    static Hdf5File create(const std::filesystem::path& path, const std::filesystem::path& shown = {});
     enum class Access { plain, live };  ///< live: another process may be writing (SWMR)
     static Hdf5File open(const std::filesystem::path& path, Access access = Access::plain);
     Hdf5File() = default;
@@ -132,12 +140,15 @@ public:
         const T fill = std::is_floating_point_v<T> ? std::numeric_limits<T>::quiet_NaN() : static_cast<T>(-1);
         return create_growing(name, growing, chunk, hdf5_type<T>(), &fill, unit, packed);
     }
+    /// All that was written so far is on disk, not only with the operating system.
+    void sync() const;
     /// From here on nothing new may be created, and other processes may read while this one writes.
     void start_live();
     /// Throws if something could not be stored; the destructor cannot.
     void close();
 
 private:
+    friend class Hdf5Growing;
     void write_attribute(const std::string& name, const std::string& attribute, hid_t type, const void* value);
     void read_attribute(const std::string& name, const std::string& attribute, hid_t type, void* value) const;
     void write_dataset(const std::string& name, const std::vector<hsize_t>& extents, hid_t type, const void* values);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/hdf5_results.h"
 
+#include "io/atomic_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,6 +78,75 @@ std::vector<int> bond_order(const State& state, const std::vector<BondFacts>& bo
 
 Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& facts) : file_(Hdf5File::create(path))
 {
+    make(facts);
+    file_.start_live();
+}
+
+Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& facts, const Hdf5Mark& mark)
+    : file_(Hdf5File::create(aside(path), path)), now_(mark)
+{
+    make(facts);
+    {
+        const Hdf5File old = Hdf5File::open(path, Hdf5File::Access::live);  // a killed run left it open
+        std::size_t k = 0;
+        for_each_dataset([&](Hdf5Growing& dataset) {
+            Hdf5Growing::Extents extents(dataset.extents().size());
+            for (hsize_t& n : extents) n = static_cast<hsize_t>(mark.extents.at(k++));
+            dataset.copy_from(old, extents);
+        });
+        const auto grains = old.read<std::int32_t>("/snapshots/grain_id");
+        for (hsize_t row = 0; row < snapshots_.grain_id.rows(); ++row) grain_rows_.emplace(grains[row], row);
+        const auto a = old.read<std::int32_t>("/bonds/grain_a"), b = old.read<std::int32_t>("/bonds/grain_b");
+        std::map<IdPair, int> seen;
+        for (hsize_t row = 0; row < bonds_.kind.rows(); ++row) {
+            const IdPair pair = std::minmax({a[row], b[row]});
+            bond_rows_.emplace(std::tuple{pair.first, pair.second, seen[pair]++}, row);
+        }
+    }
+    bonds_.failure_time.write({0}, {now_.bond_failure.size()}, now_.bond_failure);
+    bonds_.cause.write({0}, {now_.bond_cause.size()}, now_.bond_cause);
+    file_.start_live();
+    file_.sync();
+    commit_file(path);
+}
+
+template <class Visit>
+void Hdf5Results::for_each_dataset(Visit&& visit)
+{
+    const auto all = [&](auto&... datasets) { (visit(datasets), ...); };
+    visit(history_);
+    {
+        auto& [a, b, c, d, e, f, g, h, i, j, k] = snapshots_;
+        all(a, b, c, d, e, f, g, h, i, j, k);
+    }
+    {
+        auto& [a, b, c, d, e, f, g, h, i, j] = bonds_;
+        all(a, b, c, d, e, f, g, h, i, j);
+    }
+    {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l] = cracks_;
+        all(a, b, c, d, e, f, g, h, i, j, k, l);
+    }
+    all(cluster_snapshot_, cluster_time_);
+    for (Table* table : {&clusters_, &fragments_}) {
+        for (auto& [name, dataset] : *table) visit(dataset);
+    }
+}
+
+Hdf5Mark Hdf5Results::mark()
+{
+    file_.sync();
+    sync_file(file_.path());
+    Hdf5Mark m = now_;
+    m.extents.clear();
+    for_each_dataset([&](const Hdf5Growing& dataset) {
+        for (const hsize_t n : dataset.extents()) m.extents.push_back(static_cast<std::int64_t>(n));
+    });
+    return m;
+}
+
+void Hdf5Results::make(const RunFacts& facts)
+{
     file_.set_attribute("/", "version", facts.version);
     file_.set_attribute("/", "schema", results_schema);
     file_.set_attribute("/", "seed", facts.seed);
@@ -91,7 +162,6 @@ Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& fact
     make_bonds();
     make_cracks();
     make_tables();
-    file_.start_live();
 }
 
 void Hdf5Results::make_snapshots()
@@ -206,7 +276,7 @@ void Hdf5Results::append_snapshot(const Model& model, const State& state, const 
     append_rows(snapshots_.step, std::vector<std::int64_t>{state.step});
     // Last: its length tells a live reader how many snapshots are whole.
     append_rows(snapshots_.time, std::vector<double>{state.time});
-    last_step_ = state.step;
+    now_.last_step = state.step;
 }
 
 void Hdf5Results::append_grains(const Model& model, const State& state, const SnapshotFields& fields)
@@ -303,16 +373,16 @@ std::vector<Hdf5Results::BondRow> Hdf5Results::update_bonds(const State& state, 
         rows.push_back({slot, found->second});
     }
     write_bond_table(state, bonds, fresh);
-    bond_failure_.resize(bond_rows_.size(), -1.0);
-    bond_cause_.resize(bond_rows_.size(), 0);
+    now_.bond_failure.resize(bond_rows_.size(), -1.0);
+    now_.bond_cause.resize(bond_rows_.size(), 0);
     for (const BondRow& r : rows) {
         const BondFacts& bond = bonds[static_cast<std::size_t>(r.slot)];
-        bond_failure_[r.row] = bond.failure_time;
-        bond_cause_[r.row] = static_cast<std::int32_t>(bond.cause);
+        now_.bond_failure[r.row] = bond.failure_time;
+        now_.bond_cause[r.row] = static_cast<std::int32_t>(bond.cause);
     }
-    bonds_.failure_time.write({0}, {bond_failure_.size()}, bond_failure_);
+    bonds_.failure_time.write({0}, {now_.bond_failure.size()}, now_.bond_failure);
     bonds_.failure_time.flush();
-    bonds_.cause.write({0}, {bond_cause_.size()}, bond_cause_);
+    bonds_.cause.write({0}, {now_.bond_cause.size()}, now_.bond_cause);
     bonds_.cause.flush();
     return rows;
 }
@@ -323,10 +393,10 @@ void Hdf5Results::append_cracks(const std::vector<CrackFace>& cracks)
     // grain shares out its broken faces too; those are no new cracks.)
     std::vector<CrackFace> fresh;
     for (const CrackFace& crack : cracks) {
-        if (crack.time > last_crack_) fresh.push_back(crack);
+        if (crack.time > now_.last_crack) fresh.push_back(crack);
     }
     if (fresh.empty()) return;
-    last_crack_ = fresh.back().time;
+    now_.last_crack = fresh.back().time;
     auto& c = cracks_;
     append_column<double>(c.first_damage_time, fresh, [](const CrackFace& f) { return f.first_damage_time; });
     append_column<std::int32_t>(c.mode, fresh, [](const CrackFace& f) { return f.mode; });
@@ -375,7 +445,7 @@ void Hdf5Results::finish(const Model& model, const State& state, const SnapshotF
                          const std::vector<CrackFace>& cracks)
 {
     append_table(fragments_, collect_fragments(model, state, fields));
-    if (last_step_ == state.step) return;
+    if (now_.last_step == state.step) return;
     constexpr std::int32_t after_the_last = -1;
     update_bonds(state, all_bond_facts(state));
     append_cracks(cracks);

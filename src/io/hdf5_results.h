@@ -4,6 +4,7 @@
 #pragma once
 
 #include "io/bond_faces.h"
+#include "io/folder_mark.h"
 #include "io/fragments.h"
 #include "io/hdf5_file.h"
 #include "io/results.h"
@@ -22,7 +23,11 @@ inline constexpr std::int64_t results_schema = 2;
 class Hdf5Results {
 public:
     Hdf5Results(const std::filesystem::path& path, const RunFacts& facts);
+    /// Goes on from `mark`: what came later is left out. The old file is replaced when the new one is whole.
+    Hdf5Results(const std::filesystem::path& path, const RunFacts& facts, const Hdf5Mark& mark);
 
+    /// Everything so far is on disk when this returns.
+    Hdf5Mark mark();
     void append_history(const HistoryRow& row);
     void append_snapshot(const Model& model, const State& state, const SnapshotFields& fields,
                          const std::vector<CrackFace>& cracks);
@@ -32,6 +37,7 @@ public:
     void close();
 
 private:
+    void make(const RunFacts& facts);
     void make_snapshots();
     void make_bonds();
     void make_cracks();
@@ -52,26 +58,26 @@ private:
     void append_table(Table& table, const std::vector<Row>& rows);
     void append_clusters(const std::vector<Cluster>& clusters, const State& state, std::int32_t snapshot);
 
+    template <class Visit>
+    void for_each_dataset(Visit&& visit);
+
     Hdf5File file_;
     Hdf5Growing history_;
-    struct {
+    struct Snapshots {
         Hdf5Growing time, step, grain_id, radius, position, orientation, velocity, stress, cluster, damage, cleavage;
     } snapshots_;
-    struct {
+    struct Bonds {
         Hdf5Growing kind, grain_a, grain_b, area, normal, normal_stiffness, shear_stiffness, damage, failure_time,
             cause;
     } bonds_;
-    struct {
+    struct Cracks {
         Hdf5Growing time, first_damage_time, mode, cause, grain_a, grain_b, area, center, normal, opening, k_i, k_ii;
     } cracks_;
     Hdf5Growing cluster_snapshot_, cluster_time_;
     Table clusters_, fragments_;
     std::unordered_map<std::int32_t, hsize_t> grain_rows_;
     std::map<std::tuple<std::int32_t, std::int32_t, int>, hsize_t> bond_rows_;  // ids of the grains, number in the pair
-    std::vector<double> bond_failure_;
-    std::vector<std::int32_t> bond_cause_;
-    double last_crack_ = -1.0;     // [s]
-    std::int64_t last_step_ = -1;  // of the last snapshot
+    Hdf5Mark now_;                                                              // but for the extents
 };
 
 }  // namespace grainfrac

@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <sstream>
 #include <stdexcept>
 
@@ -34,39 +32,28 @@ double to_number(const std::string& text, const std::filesystem::path& path)
     return value;
 }
 
-}  // namespace
-
-HistoryCsv::HistoryCsv(std::filesystem::path path, const RunFacts& facts)
-    : path_(std::move(path)), file_(path_, std::ios::binary | std::ios::trunc)
+std::string head(const RunFacts& facts)
 {
     std::vector<std::string> names;
     HistoryRow{}.for_each_column([&](const char* name, auto) { names.emplace_back(name); });
-    put(fmt::format(
+    return fmt::format(
         "# grainfrac {}\n# test: {}\n# seed: {}\n# input: {}\n"
         "# signs: tension and opening are positive; the load and the displacement of a compression test are\n"
         "# magnitudes. SI units, named at the end of each column; no unit: pure number.\n"
         "# energies: external_work + gravity_work + inserted_energy + initial energy = kinetic + elastic +\n"
         "# friction + damping + fracture + error; energy_error is relative to the largest of them.\n{}\n",
-        facts.version, facts.test_kind, facts.seed, facts.input_hash, fmt::join(names, ",")));
+        facts.version, facts.test_kind, facts.seed, facts.input_hash, fmt::join(names, ","));
 }
+
+}  // namespace
+
+HistoryCsv::HistoryCsv(std::filesystem::path path, const RunFacts& facts) : file_(std::move(path), head(facts)) {}
 
 void HistoryCsv::append(const HistoryRow& row)
 {
     std::string line;
     row.for_each_column([&](const char*, auto value) { append_cell(line, value); });
-    put(line + '\n');
-}
-
-void HistoryCsv::put(const std::string& text)
-{
-    append_text(file_, path_, text);
-}
-
-void HistoryCsv::close()
-{
-    if (!file_.is_open()) return;
-    file_.close();
-    if (!file_) throw std::runtime_error(path_.string() + ": cannot close: " + std::strerror(errno));
+    file_.append(line + '\n');
 }
 
 const std::vector<double>& HistoryTable::column(const std::string& name) const

@@ -2,11 +2,12 @@
 // history.csv: one row per history interval, for people, spreadsheets and scripts.
 #pragma once
 
+#include "io/growing_text.h"
 #include "io/results.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grainfrac {
@@ -17,14 +18,14 @@ public:
     /// Starts a new file with its `#` lines and the header. These hold nothing about the device or the threads: equal
     /// runs give equal files.
     HistoryCsv(std::filesystem::path path, const RunFacts& facts);
+    /// Goes on from a checkpoint.
+    HistoryCsv(std::filesystem::path path, const TextMark& mark) : file_(std::move(path), mark) {}
     void append(const HistoryRow& row);
-    void close();
+    TextMark mark() const { return file_.mark(); }
+    void close() { file_.close(); }
 
 private:
-    void put(const std::string& text);
-
-    std::filesystem::path path_;
-    std::ofstream file_;
+    GrowingText file_;
 };
 
 /// history.csv read back.

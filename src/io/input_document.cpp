@@ -457,6 +457,12 @@ Node parse_document(const std::string& text, const std::string& file, std::map<s
     }
 }
 
+Node parse_document(const std::string& text, const std::string& name)
+{
+    int line = 0;
+    return parsed(text, name, line);
+}
+
 void apply_override(Node& root, const std::string& text, std::vector<InputProblem>& problems,
                     std::map<std::string, SourcePlace>& places)
 {

@@ -34,6 +34,9 @@ Node read_document(const std::string& file, std::map<std::string, SourcePlace>& 
 /// The same of a text; `file` is what messages call it.
 Node parse_document(const std::string& text, const std::string& file, std::map<std::string, SourcePlace>& places);
 
+/// A text as a tree; `name`: of its file, for messages. Throws InputError.
+Node parse_document(const std::string& text, const std::string& name);
+
 /// Set the value that "key.path=value" names; tables that are not there are made. What is wrong with it goes to
 /// problems.
 void apply_override(Node& root, const std::string& text, std::vector<InputProblem>& problems,

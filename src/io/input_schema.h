@@ -1061,7 +1061,11 @@ void describe(V& v, OutputSpec& s)
        .unset = "1/2000 of the expected run, or 100 steps",
        .meaning = "simulated time between rows of history.csv"});
     v("checkpoint", s.checkpoint,
-      {.unit = "s", .range = not_negative, .meaning = "wall time between checkpoints; 0: never"});
+      {.unit = "s", .range = not_negative, .meaning = "wall time between checkpoints; 0: none by time"});
+    v("checkpoint_steps", s.checkpoint_steps,
+      {.range = {1.0, 1e12},
+       .unset = "by wall time only",
+       .meaning = "most steps between checkpoints, besides `checkpoint`"});
     v("contacts", s.contacts, {.meaning = "write paraview/contacts.pvd"});
 }
 

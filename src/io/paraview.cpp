@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -295,6 +296,19 @@ std::vector<int> active_contacts(const Contacts& contacts)
     return rows;
 }
 
+/// A layer or series that this program wrote after `mark`: KIND_NNNNNN.SUFFIX, KIND.pvd.
+bool is_later(const std::string& file, const ParaviewMark& mark)
+{
+    for (const std::string kind : {"grains", "spheres", "bonds", "contacts", "cracks", "walls"}) {
+        if (file == kind + ".pvd") return !mark.entries.contains(kind);
+        if (!file.starts_with(kind + "_") || !(file.ends_with(".vtu") || file.ends_with(".vtp"))) continue;
+        const char *const begin = file.data() + kind.size() + 1, *const end = file.data() + file.size() - 4;
+        std::int64_t frame = -1;
+        return std::from_chars(begin, end, frame).ptr == end && frame >= mark.frame;
+    }
+    return false;
+}
+
 }  // namespace
 
 void write_grains(const std::filesystem::path& path, const Model& model, const State& state,
@@ -487,7 +501,7 @@ void ParaviewSeries::write_frame(const Model& model, const State& state, const S
 {
     std::vector<std::pair<std::string, std::string>> written;  // kind, file
     const auto layer = [&](const char* kind, const char* suffix, auto&& write) {
-        const std::string file = fmt::format("{}_{:06}.{}", kind, frame_, suffix);
+        const std::string file = fmt::format("{}_{:06}.{}", kind, now_.frame, suffix);
         write(folder_ / file);
         written.emplace_back(kind, file);
     };
@@ -500,17 +514,30 @@ void ParaviewSeries::write_frame(const Model& model, const State& state, const S
     layer("walls", "vtp", [&](const auto& file) { write_walls(file, model, state); });
     // Entered when all are there, so that the layers that ParaView shows are of one time.
     for (const auto& [kind, file] : written) enter(kind, file, state.time);
-    ++frame_;
+    ++now_.frame;
 }
 
 void ParaviewSeries::enter(const std::string& kind, const std::string& file, double time)
 {
-    std::string& entries = entries_[kind];
-    entries += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, file);
+    now_.entries[kind] += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, file);
+    write_series(kind);
+}
+
+void ParaviewSeries::write_series(const std::string& kind) const
+{
     write_file(folder_ / (kind + ".pvd"),
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                "  <Collection>\n" +
-                   entries + "  </Collection>\n</VTKFile>\n");
+                   now_.entries.at(kind) + "  </Collection>\n</VTKFile>\n");
+}
+
+ParaviewSeries::ParaviewSeries(std::filesystem::path folder, const ParaviewMark& mark)
+    : folder_(std::move(folder)), now_(mark)
+{
+    for (const auto& [kind, lines] : now_.entries) write_series(kind);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+        if (is_later(entry.path().filename().string(), now_)) std::filesystem::remove(entry.path());
+    }
 }
 
 }  // namespace grainfrac

@@ -4,6 +4,7 @@
 
 #include "io/results.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -29,10 +30,19 @@ void write_cracks(const std::filesystem::path& path, const State& state, const s
 /// Driven bodies, but for spheres (.vtp).
 void write_walls(const std::filesystem::path& path, const Model& model, const State& state);
 
+/// The series at a checkpoint.
+struct ParaviewMark {
+    std::map<std::string, std::string> entries;  ///< per kind: the DataSet lines of its .pvd
+    std::int64_t frame = 0;
+};
+
 /// The folder with its series, one frame after another.
 class ParaviewSeries {
 public:
     explicit ParaviewSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// Goes on from a checkpoint: later frames are removed.
+    ParaviewSeries(std::filesystem::path folder, const ParaviewMark& mark);
+    const ParaviewMark& mark() const { return now_; }
 
     void write_frame(const Model& model, const State& state, const SnapshotFields& fields,
                      const std::vector<CrackFace>& cracks, bool contacts);
@@ -40,10 +50,10 @@ public:
 private:
     /// Enter `file` into `kind`.pvd, which is made anew, so that a ParaView that is open can reload it.
     void enter(const std::string& kind, const std::string& file, double time);
+    void write_series(const std::string& kind) const;
 
     std::filesystem::path folder_;
-    std::map<std::string, std::string> entries_;  // per kind: the DataSet lines of its .pvd
-    int frame_ = 0;
+    ParaviewMark now_;
 };
 
 }  // namespace grainfrac

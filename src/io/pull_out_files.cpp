@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <map>
-#include <stdexcept>
+#include <utility>
 
 namespace grainfrac {
 
@@ -21,11 +19,18 @@ constexpr const char* profiles_name = "profiles.csv";
 /// A profile is due within this of its mean damage [-].
 constexpr double damage_round_off = 1e-9;
 
-void put(std::ofstream& file, const std::filesystem::path& path, const std::string& text)
+constexpr const char* rows_head =
+    "# phase: 0 stress growth, 1 debonding, 2 friction. Slip of the exit and of the embedded end: of the fibre "
+    "against the matrix, along the pull.\n"
+    "end_slip_m,end_stress_Pa,end_displacement_m,embedded_slip_m,mean_damage,phase,support_stress_Pa\n";
+constexpr const char* profiles_head =
+    "# means of the levels of the fibre; z from where its matrix begins; tau_spread: about the mean of a level\n"
+    "mean_damage,z_m,slip_m,tau_Pa,sigma_f_Pa,damage,tau_spread_Pa\n";
+
+std::vector<double> sorted(std::vector<double> values)
 {
-    errno = 0;
-    if (!(file << text << std::flush))
-        throw std::runtime_error(path.string() + ": cannot write: " + std::strerror(errno != 0 ? errno : EIO));
+    std::sort(values.begin(), values.end());
+    return values;
 }
 
 /// Stress growth, debonding, friction (physics: phases of a pull-out).
@@ -37,19 +42,31 @@ int phase_of(const PullOutState& s)
 }  // namespace
 
 PullOutFiles::PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at)
-    : folder_(folder),
-      rows_(folder / rows_name, std::ios::binary | std::ios::trunc),
-      profiles_(folder / profiles_name, std::ios::binary | std::ios::trunc),
-      due_(std::move(profiles_at))
+    : rows_(folder / rows_name, rows_head),
+      profiles_(folder / profiles_name, profiles_head),
+      due_(sorted(std::move(profiles_at)))
 {
-    std::sort(due_.begin(), due_.end());
-    put(rows_, folder / rows_name,
-        "# phase: 0 stress growth, 1 debonding, 2 friction. Slip of the exit and of the embedded end: of the fibre "
-        "against the matrix, along the pull.\n"
-        "end_slip_m,end_stress_Pa,end_displacement_m,embedded_slip_m,mean_damage,phase,support_stress_Pa\n");
-    put(profiles_, folder / profiles_name,
-        "# means of the levels of the fibre; z from where its matrix begins; tau_spread: about the mean of a level\n"
-        "mean_damage,z_m,slip_m,tau_Pa,sigma_f_Pa,damage,tau_spread_Pa\n");
+}
+
+PullOutFiles::PullOutFiles(const std::filesystem::path& folder, std::vector<double> profiles_at,
+                           const PullOutMark& mark)
+    : rows_(folder / rows_name, mark.rows),
+      profiles_(folder / profiles_name, mark.profiles),
+      due_(sorted(std::move(profiles_at))),
+      next_(static_cast<std::size_t>(mark.next_profile)),
+      whole_(mark.whole)
+{
+}
+
+void check_heads(const std::filesystem::path& folder, const PullOutMark& mark)
+{
+    check_head(folder / rows_name, mark.rows);
+    check_head(folder / profiles_name, mark.profiles);
+}
+
+PullOutMark PullOutFiles::mark() const
+{
+    return {rows_.mark(), profiles_.mark(), static_cast<std::int64_t>(next_), whole_};
 }
 
 void PullOutFiles::append(const PullOutState& s, const FibreProfile& p)
@@ -59,7 +76,7 @@ void PullOutFiles::append(const PullOutState& s, const FibreProfile& p)
         append_cell(line, x);
     append_cell(line, phase_of(s));
     append_cell(line, s.support_stress);
-    put(rows_, folder_ / rows_name, line + '\n');
+    rows_.append(line + '\n');
     if (next_ < due_.size() && due_[next_] <= 0.0) {  // the last state without damage
         if (s.mean_damage <= 0.0) {
             if (s.end_stress != 0.0) whole_ = {s, p};
@@ -89,7 +106,7 @@ void PullOutFiles::put_profile(const PullOutState& s, const FibreProfile& p)
             append_cell(row, x);
         rows += row + '\n';
     }
-    put(profiles_, folder_ / profiles_name, rows);
+    profiles_.append(rows);
 }
 
 void write_pull_out_plots(const std::filesystem::path& folder)

@@ -3,6 +3,7 @@
 
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
+#include "io/folder_mark.h"
 #include "io/fragments.h"
 #include "io/hdf5_results.h"
 #include "io/history_csv.h"
@@ -16,8 +17,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
 #include <optional>
+#include <sys/file.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace grainfrac {
 
@@ -39,6 +46,34 @@ bool holds(const fs::path& folder, const fs::path& of)
     }
 }
 
+/// Holds a folder for this process until it ends, however it ends. Where the file system knows no locks, nothing does.
+class FolderLock {
+public:
+    explicit FolderLock(const fs::path& folder) : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+    {
+        if (fd_ < 0) throw std::runtime_error(folder.string() + ": cannot read: " + std::strerror(errno));
+        if (::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+        ::close(fd_);
+        throw std::runtime_error(folder.string() + ": another run is at work in this folder");
+    }
+    ~FolderLock() { ::close(fd_); }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int fd_;
+};
+
+/// Nothing in it but folders, and perhaps a marker half written: what a run leaves that was killed at once.
+bool holds_no_file(const fs::path& folder)
+{
+    std::error_code error;
+    const fs::recursive_directory_iterator entries(folder, error);
+    return !error && std::all_of(fs::begin(entries), fs::end(entries), [&](const fs::directory_entry& e) {
+        return (e.is_directory() && !e.is_symlink()) || e.path() == aside(folder / marker);
+    });
+}
+
 /// Removes an old result folder. Whatever else `folder` may be is refused and stays as it is.
 void clear_way(const fs::path& folder, bool replace)
 {
@@ -49,12 +84,16 @@ void clear_way(const fs::path& folder, bool replace)
     if (!replace)
         throw InputError("--out", name + "exists; choose another folder or allow it to be replaced with --force");
     if (!fs::is_directory(status)) throw InputError("--out", name + "is not a folder; it is not replaced");
-    const bool empty = fs::is_empty(folder, error);
-    if (!empty && !fs::is_regular_file(fs::symlink_status(folder / marker, error)))
+    if (!holds_no_file(folder) && !fs::is_regular_file(fs::symlink_status(folder / marker, error)))
         throw InputError("--out",
                          fmt::format("{}is not a result folder (it holds no {}); it is not replaced", name, marker));
     if (holds(folder, fs::current_path()))
         throw InputError("--out", name + "holds the working directory; it is not replaced");
+    const FolderLock lock(folder);
+    // the marker last: without it the rest is no result folder
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        if (entry.path().filename() != marker) fs::remove_all(entry.path(), error);
+    }
     fs::remove_all(folder, error);
     if (error) throw InputError("--out", name + "cannot be replaced: " + error.message());
 }
@@ -63,6 +102,7 @@ void clear_way(const fs::path& folder, bool replace)
 
 struct ResultFolder::Impl {
     fs::path folder;
+    std::optional<FolderLock> lock;
     RunFacts facts;
     std::optional<HistoryCsv> history;
     std::optional<WallHistory> walls;  // from its first row on
@@ -82,6 +122,18 @@ ResultFolder::ResultFolder(const fs::path& folder, bool replace) : impl_(std::ma
         fs::create_directories(folder / part, error);
         if (error) throw InputError("--out", fmt::format("cannot create \"{}\": {}", folder.string(), error.message()));
     }
+    impl_->lock.emplace(folder);
+}
+
+ResultFolder::ResultFolder(const fs::path& folder, Existing) : impl_(std::make_unique<Impl>())
+{
+    impl_->folder = folder;
+    if (!fs::is_directory(folder)) throw InputError("DIR", fmt::format("\"{}\" is no folder", folder.string()));
+    if (!fs::is_regular_file(folder / marker))
+        throw InputError("DIR", fmt::format("\"{}\" is not a result folder (it holds no {})", folder.string(), marker));
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        throw std::runtime_error(folder.string() + ": cannot write: " + std::strerror(errno));
+    impl_->lock.emplace(folder);
 }
 
 ResultFolder::~ResultFolder() = default;
@@ -134,9 +186,63 @@ void ResultFolder::append_pull_out(const PullOutState& row, const FibreProfile& 
     impl_->pull_out->append(row, profile);
 }
 
-void ResultFolder::write_checkpoint(const Model& model, const State& state)
+void ResultFolder::write_checkpoint(std::int64_t step, const std::function<void(Archive&)>& content)
 {
-    write_next_checkpoint(impl_->folder / "checkpoint", model, state, impl_->facts.version);
+    write_next_checkpoint(impl_->folder / "checkpoint", step, impl_->facts.version, content);
+}
+
+FolderMark ResultFolder::mark()
+{
+    FolderMark m;
+    m.history = impl_->history.value().mark();
+    if (impl_->walls) m.walls = impl_->walls->mark();
+    if (impl_->pull_out) m.pull_out = impl_->pull_out->mark();
+    m.results = impl_->table.value().mark();
+#ifdef GF_HAVE_VTK
+    m.series = impl_->paraview.value().mark().entries;
+    m.frame = impl_->paraview->mark().frame;
+#endif
+    return m;
+}
+
+void ResultFolder::go_on(const RunFacts& facts, const std::string& resolved_toml, const FolderMark& mark,
+                         const std::vector<double>& profiles_at)
+{
+    impl_->facts = facts;
+    const fs::path& folder = impl_->folder;
+    for (const char* part : {"paraview", "plots", "checkpoint"}) fs::create_directories(folder / part);
+    // nothing is changed before it is known that all can go on
+    check_head(folder / "history.csv", mark.history);
+    if (mark.walls) check_head(folder / "walls.csv", *mark.walls);
+    if (mark.pull_out) check_heads(folder, *mark.pull_out);
+    try {
+        impl_->table.emplace(folder / "results.h5", facts, mark.results);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(aside(folder / "results.h5"), ignored);
+        throw;
+    }
+    // written at an end that is none any more; the first of them tells that a run has ended
+    for (const char* file : {"summary.json", "fragments.csv", "clusters.csv"}) fs::remove(folder / file);
+    write_file(folder / marker, resolved_toml);
+    impl_->history.emplace(folder / "history.csv", mark.history);
+    if (mark.walls)
+        impl_->walls.emplace(folder / "walls.csv", *mark.walls);
+    else
+        fs::remove(folder / "walls.csv");
+    if (mark.pull_out)
+        impl_->pull_out.emplace(folder, profiles_at, *mark.pull_out);
+    else
+        for (const char* file : {"pull_out.csv", "profiles.csv"}) fs::remove(folder / file);
+#ifdef GF_HAVE_VTK
+    impl_->paraview.emplace(folder / "paraview", ParaviewMark{mark.series, mark.frame});
+    write_file(folder / "paraview" / "view.py", view_script());
+#endif
+    for (const char* part : {"", "checkpoint", "paraview"}) {  // files of a killed run that never got whole
+        for (const auto& entry : fs::directory_iterator(folder / part)) {
+            if (entry.path().extension() == ".tmp") fs::remove(entry.path());
+        }
+    }
 }
 
 void ResultFolder::finish(const std::string& summary_json, const Model& model, const State& state,
@@ -150,14 +256,17 @@ void ResultFolder::finish(const std::string& summary_json, const Model& model, c
     const std::vector<Cluster> clusters = collect_clusters(model, state, fields);
     const std::vector<Fragment> fragments = collect_fragments(model, state, fields);
     write_fragment_tables(impl_->folder, impl_->facts, fragments, clusters);
-    write_file(impl_->folder / "summary.json", summary_json);
-    if (!plots) return;
-    try {
-        if (impl_->pull_out) write_pull_out_plots(impl_->folder);
-        write_plots(impl_->folder, model, state, cracks, fragments, clusters);
-    } catch (const std::exception& e) {
-        throw PlotError(e.what());
+    std::string not_plotted;
+    if (plots) {
+        try {
+            if (impl_->pull_out) write_pull_out_plots(impl_->folder);
+            write_plots(impl_->folder, model, state, cracks, fragments, clusters);
+        } catch (const std::exception& e) {
+            not_plotted = e.what();
+        }
     }
+    write_file(impl_->folder / "summary.json", summary_json);  // last: it tells that the run has ended
+    if (!not_plotted.empty()) throw PlotError(not_plotted);
 }
 
 }  // namespace grainfrac

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,7 @@
 
 namespace grainfrac {
 
+class Archive;
 struct FibreProfile;
 struct PullOutState;
 
@@ -79,6 +81,15 @@ struct SnapshotFields {
     std::vector<Mat3> stress;             ///< mean Cauchy stress of each body, tension positive; zero for walls [Pa]
     std::vector<std::int32_t> cluster;    ///< bonded component of each body, -1 for walls; numbered by size, largest 0
     std::vector<GrainCleavage> cleavage;  ///< of each body; where no material cleaves, all are as far from it as can be
+
+    template <class Visit>
+    void for_each_member(Visit&& visit)
+    {
+        auto& [a, b, c] = *this;
+        visit("stress", a);
+        visit("cluster", b);
+        visit("cleavage", c);
+    }
 };
 
 /// A face that broke.
@@ -113,13 +124,19 @@ struct PlotError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Owns the folder. Every file is either growing (history.csv, results.h5: flushed after each row, results.h5 readable
-/// live as SWMR) or written aside and renamed.
+struct FolderMark;
+
+/// Owns the folder, which no other process can write meanwhile. Every file is either growing (history.csv, results.h5:
+/// flushed after each row, results.h5 readable live as SWMR) or written aside and renamed.
 class ResultFolder {
 public:
     /// Creates the folder. Throws InputError (key "--out") if it exists and `replace` is false or if it cannot be
     /// written; with `replace` an existing folder is removed only if it is a result folder (holds resolved.toml).
     ResultFolder(const std::filesystem::path& folder, bool replace);
+    enum class Existing { go_on };
+    /// The folder of a run that is to go on. Throws InputError (key "DIR") if it is none, std::runtime_error if a run
+    /// is at work in it or it cannot be written.
+    ResultFolder(const std::filesystem::path& folder, Existing);
     ~ResultFolder();
 
     const std::filesystem::path& path() const;
@@ -133,8 +150,14 @@ public:
     void write_snapshot(const Model& model, const State& state, const SnapshotFields& fields, bool contacts);
     /// A row of pull_out.csv, and a profile where one is due.
     void append_pull_out(const PullOutState& row, const FibreProfile& profile, const std::vector<double>& profiles_at);
-    /// checkpoint/step_N.h5: everything that State::... for_each_array walks, checksummed; keeps the newest two.
-    void write_checkpoint(const Model& model, const State& state);
+    /// checkpoint/step_N.h5; keeps the newest two. Throws std::runtime_error.
+    void write_checkpoint(std::int64_t step, const std::function<void(Archive&)>& content);
+    /// How much of the growing files there is; all of it is on disk when this returns.
+    FolderMark mark();
+    /// Instead of begin(): the growing files are cut back to the mark and go on from there; what an earlier end left is
+    /// removed. Throws std::runtime_error if a file holds less than the mark says, or something else.
+    void go_on(const RunFacts& facts, const std::string& resolved_toml, const FolderMark& mark,
+               const std::vector<double>& profiles_at);
     /// summary.json (text made by the caller), fragments.csv, clusters.csv, plots/*, the tables of results.h5.
     /// Throws PlotError, with everything else written, if a plot could not be made; `plots` false: none are made.
     void finish(const std::string& summary_json, const Model& model, const State& state, const SnapshotFields& fields,

@@ -43,6 +43,17 @@ void for_each_column(const std::string& name, const WallRow& r, Visit&& visit)
     visit(name + "_contact_radius_m", r.contact_radius);
 }
 
+std::string head(const RunFacts& facts, const Model& model)
+{
+    std::string names = "time_s";
+    for (const std::string& wall : model.walls)
+        for_each_column(wall, {}, [&](const std::string& name, auto) { names += ',' + name; });
+    return fmt::format(
+        "# grainfrac {}\n# test: {}\n# seed: {}\n# input: {}\n"
+        "# forces are those on the wall or grip; SI units, named at the end of each column\n{}\n",
+        facts.version, facts.test_kind, facts.seed, facts.input_hash, names);
+}
+
 }  // namespace
 
 std::vector<WallRow> wall_rows(const Model& model, const State& state)
@@ -76,15 +87,8 @@ std::vector<WallRow> wall_rows(const Model& model, const State& state)
 }
 
 WallHistory::WallHistory(std::filesystem::path path, const RunFacts& facts, const Model& model)
-    : path_(std::move(path)), file_(path_, std::ios::binary | std::ios::trunc)
+    : file_(std::move(path), head(facts, model))
 {
-    std::string names = "time_s";
-    for (const std::string& wall : model.walls)
-        for_each_column(wall, {}, [&](const std::string& name, auto) { names += ',' + name; });
-    append_text(file_, path_,
-                fmt::format("# grainfrac {}\n# test: {}\n# seed: {}\n# input: {}\n"
-                            "# forces are those on the wall or grip; SI units, named at the end of each column\n{}\n",
-                            facts.version, facts.test_kind, facts.seed, facts.input_hash, names));
 }
 
 void WallHistory::append(const Model& model, const State& state)
@@ -93,7 +97,7 @@ void WallHistory::append(const Model& model, const State& state)
     append_cell(line, state.time);
     for (const WallRow& r : wall_rows(model, state))
         for_each_column("", r, [&](const std::string&, auto value) { append_cell(line, value); });
-    append_text(file_, path_, line + '\n');
+    file_.append(line + '\n');
 }
 
 }  // namespace grainfrac

@@ -2,10 +2,11 @@
 // walls.csv: what acts on each wall and grip, and where it is; a row per row of history.csv.
 #pragma once
 
+#include "io/growing_text.h"
 #include "io/results.h"
 
 #include <filesystem>
-#include <fstream>
+#include <utility>
 #include <vector>
 
 namespace grainfrac {
@@ -25,11 +26,13 @@ std::vector<WallRow> wall_rows(const Model& model, const State& state);
 class WallHistory {
 public:
     WallHistory(std::filesystem::path path, const RunFacts& facts, const Model& model);
+    /// Goes on from a checkpoint.
+    WallHistory(std::filesystem::path path, const TextMark& mark) : file_(std::move(path), mark) {}
     void append(const Model& model, const State& state);
+    TextMark mark() const { return file_.mark(); }
 
 private:
-    std::filesystem::path path_;
-    std::ofstream file_;
+    GrowingText file_;
 };
 
 }  // namespace grainfrac

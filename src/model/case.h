@@ -290,11 +290,12 @@ struct ControlSpec {
 };
 
 struct OutputSpec {
-    std::optional<double> every;            ///< snapshots [s]
-    std::optional<std::int64_t> snapshots;  ///< or their number (needs stop.time or a stage duration)
-    std::optional<double> history;          ///< [s]; auto: 1/1000 of the run or 100 steps
-    double checkpoint = 60.0;               ///< wall time; 0: never [s]
-    bool contacts = true;                   ///< write paraview/contacts.pvd
+    std::optional<double> every;                   ///< snapshots [s]
+    std::optional<std::int64_t> snapshots;         ///< or their number (needs stop.time or a stage duration)
+    std::optional<double> history;                 ///< [s]; auto: 1/1000 of the run or 100 steps
+    double checkpoint = 60.0;                      ///< wall time; 0: never [s]
+    std::optional<std::int64_t> checkpoint_steps;  ///< or so many steps after the last one, whichever is first
+    bool contacts = true;                          ///< write paraview/contacts.pvd
 };
 
 /// Where a key stands in the input file, for messages about it.

@@ -36,6 +36,15 @@ public:
     Relaxed relax(Model& model, State& state, const RelaxSettings& settings,
                   const std::function<bool()>& interrupted = {});
 
+    template <class Visit>  // all that it remembers
+    void for_each_member(Visit&& visit)
+    {
+        auto& [masses, largest_force, slowest] = *this;
+        visit("masses", masses);
+        visit("largest_force", largest_force);
+        visit("slowest", slowest);
+    }
+
 private:
     std::vector<FictitiousMass> masses_;
     double largest_force_ = 0.0;  ///< mean of the interactions, over all relaxations [N]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program as its user meets it: commands, exit codes, files, the example in short.
-#include "support/workplace.h"
+#include "support/program.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -18,14 +18,10 @@
 #include <unistd.h>
 #include <vector>
 
-namespace fs = std::filesystem;
+using namespace program_test;
 
 namespace {
 
-using namespace grainfrac::test;
-
-const std::string program = GF_PROGRAM;
-const fs::path source = GF_SOURCE_DIR;
 const std::string example = (source / "examples/brazilian/brazilian.toml").string();
 /// Coarse grains, fast platens: two seconds instead of twenty.
 const std::string shorter =
@@ -273,73 +269,6 @@ TEST_CASE("halving the platen speed changes the peak load of the example by less
     CHECK(w.summary("fast")["quasi_static"]["kinetic_over_elastic_to_peak"].get<double>() < 1e-2);
     CHECK(w.summary("fast")["energy"]["largest_relative_error"].get<double>() < 1e-3);
 }
-
-namespace {
-
-/// Four grains upon each other, 1 um apart: settled, pressed, bonded, pressed, let go, and pressed again.
-const char* const staged_column = R"([materials.sic]
-density = 3100
-young_modulus = "410 GPa"
-poisson_ratio = 0.17
-[[parts]]
-name = "column"
-material = "sic"
-side = "0.6 mm"
-thickness = "1 mm"
-gap = "1 um"
-region = { shape = "box", size = ["1.1 mm", "1.3 mm", "4 mm"] }
-[[bonds]]
-made_in = "bonds_on"
-failure = "unbreakable"
-[[contacts]]
-normal_stiffness = "4e14 Pa/m"
-restitution = 0.5
-[[walls]]
-name = "top"
-center = [0, 0, "2 mm"]
-normal = [0, 0, -1]
-size = ["3 mm", "3 mm"]
-[[walls]]
-name = "bottom"
-center = [0, 0, "-2 mm"]
-normal = [0, 0, 1]
-size = ["3 mm", "3 mm"]
-[[stages]]
-name = "settle"
-kind = "settle"
-gravity = [0, 0, "-1000 m/s^2"]
-rest = 0.01
-duration = "1 ms"
-[[stages]]
-name = "compact"
-kind = "compact"
-move = [{ wall = "top", servo = { stress = "1 MPa", max_speed = "0.2 m/s" } }]
-local_damping = 0.3
-unbalanced_force_ratio = 0.01
-duration = "1 ms"
-[[stages]]
-name = "bonds_on"
-kind = "bond"
-bond_distance = "0.1 um"
-[[stages]]
-name = "press"
-move = [{ wall = "top", velocity = [0, 0, "-20 mm/s"] }]
-ramp = "10 us"
-stress = "50 MPa"
-[[stages]]
-name = "back"
-kind = "unload"
-ramp = "10 us"
-[[stages]]
-name = "again"
-move = [{ wall = "top", velocity = [0, 0, "-20 mm/s"] }]
-load = "20 N"
-[output]
-history = "0.5 us"
-every = "1 ms"
-)";
-
-}  // namespace
 
 TEST_CASE("a programme of stages: compacted, bonded, pressed to a stress, unloaded to nothing")
 {

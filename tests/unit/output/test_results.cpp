@@ -79,7 +79,7 @@ TEST_CASE("a whole run leaves a whole folder", "[output][results]")
         CHECK(read_history_csv(out / "history.csv").rows() == static_cast<std::size_t>(k + 1));
         if (k % 20 == 0) results.write_snapshot(w.model, w.state, w.fields, true);
     }
-    results.write_checkpoint(w.model, w.state);
+    results.write_checkpoint(300, [](Archive&) {});
     results.finish("{\"exit_reason\": \"done\"}\n", w.model, w.state, w.fields);
     CHECK(read_file(out / "summary.json") == "{\"exit_reason\": \"done\"}\n");
     CHECK(fs::exists(out / "resolved.toml"));
@@ -209,7 +209,7 @@ TEST_CASE("a full disk is an error that names the file", "[output][results]")
         CHECK_THROWS_WITH(table.append_history(sample::history_row(1)), Catch::Contains("table.h5"));
         CHECK_THROWS_WITH(write_file(folder / "a.txt", std::string(1000, 'x')), Catch::Contains("a.txt"));
         CHECK_THROWS_WITH(csv.append(sample::history_row(1)), Catch::Contains("history.csv"));
-        CHECK_THROWS_WITH(results.write_checkpoint(w.model, w.state), Catch::Contains("step_300.h5"));
+        CHECK_THROWS_WITH(results.write_checkpoint(300, [](Archive&) {}), Catch::Contains("step_300.h5"));
         CHECK_THROWS_WITH(plot_curves(folder / "plot", "t", "x", "y", {{"a", {0, 1}, {0, 1}}}),
                           Catch::Contains("plot.svg"));
 #ifdef GF_HAVE_VTK
@@ -222,7 +222,7 @@ TEST_CASE("a full disk is an error that names the file", "[output][results]")
     CHECK(fs::is_empty(folder / "out" / "checkpoint"));
     CHECK_FALSE(fs::exists(folder / "plot.svg"));
     // Room again: the same folder goes on.
-    results.write_checkpoint(w.model, w.state);
+    results.write_checkpoint(300, [](Archive&) {});
     results.write_snapshot(w.model, w.state, w.fields, true);
     results.append_history(sample::history_row(1));
     CHECK_THROWS_WITH(write_file("/proc/nowhere", "x"), Catch::Contains("/proc/nowhere"));
