@@ -6,7 +6,6 @@
 #include "geometry/vec3.h"
 
 #include <cstdint>
-#include <string>
 
 namespace grainfrac {
 
@@ -23,14 +22,16 @@ struct RunState {
     std::int32_t stage_body = -1;                     ///< whose way is the displacement of the stage
     Vec3 stage_origin;                                ///< where it was when the stage began [m]
     double rest_start = 0.0, rest_impulse = 0.0;      ///< [s], [N s]
-    std::string too_long;                             ///< why a time step that the user fixed is no longer stable
+    double step_limit = 0.0;                          ///< where the user's time step is above it; 0: it is not [s]
     std::int64_t broken = 0, fragments = 0;
     double energy_floor = 0.0;  ///< [J]
+    double most_speed = 0.0;    ///< a body that is faster has run away; 0: not known [m/s]
+    double error_before = 0.0;  ///< residual of the energy account at the last look, if it was off by much [J]
 
     template <class Visit>
     void for_each_member(Visit&& visit)
     {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = *this;  // every one of them
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = *this;  // every one of them
         visit("stage", a);
         visit("stage_begun", b);
         visit("dt", c);
@@ -47,10 +48,12 @@ struct RunState {
         visit("stage_origin", n);
         visit("rest_start", o);
         visit("rest_impulse", p);
-        visit("too_long", q);
+        visit("step_limit", q);
         visit("broken", r);
         visit("fragments", s);
         visit("energy_floor", t);
+        visit("most_speed", u);
+        visit("error_before", v);
     }
 };
 

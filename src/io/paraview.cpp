@@ -356,6 +356,34 @@ void write_spheres(const std::filesystem::path& path, const Model& model, const 
     write_xml<vtkXMLPolyDataWriter>(path, cloud.Get());
 }
 
+void write_culprits(const std::filesystem::path& path, const Model& model, const State& state,
+                    const std::vector<int>& bodies)
+{
+    const Bodies& b = state.bodies;
+    vtkNew<vtkUnstructuredGrid> grid;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const int i : bodies) {
+        const Polyhedron& shape = model.grain_shapes[static_cast<std::size_t>(i)];
+        if (!shape.faces.empty()) {
+            add_grain_cell(grid, points, shape, b.position[i], b.orientation[i]);
+            continue;
+        }
+        const vtkIdType point = points->GetNumberOfPoints();
+        add_point(points, b.position[i]);
+        grid->InsertNextCell(VTK_VERTEX, 1, &point);
+    }
+    grid->SetPoints(points);
+    vtkFieldData* data = grid->GetCellData();
+    add_integers(data, "body_id", bodies, [&](int i) { return b.id[i]; });
+    add_integers(data, "part", bodies, [&](int i) { return b.group[i]; });
+    add_numbers(data, "radius", bodies, [&](int i) { return model.shapes.radius[b.shape[i]]; });
+    add_vectors(data, "force", bodies, [&](int i) { return b.force[i]; });
+    add_body_motion(data, b, bodies);
+    add_time(grid, state);
+    write_xml<vtkXMLUnstructuredGridWriter>(path, grid.Get());
+}
+
 void write_bonds(const std::filesystem::path& path, const State& state)
 {
     const std::vector<BondFacts> facts = all_bond_facts(state);

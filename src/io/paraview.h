@@ -30,6 +30,10 @@ void write_cracks(const std::filesystem::path& path, const State& state, const s
 /// Driven bodies, but for spheres (.vtp).
 void write_walls(const std::filesystem::path& path, const Model& model, const State& state);
 
+/// Some bodies, grains as polyhedra and spheres as points, with motion, force and kinetic energy (.vtu).
+void write_culprits(const std::filesystem::path& path, const Model& model, const State& state,
+                    const std::vector<int>& bodies);
+
 /// The series at a checkpoint.
 struct ParaviewMark {
     std::map<std::string, std::string> entries;  ///< per kind: the DataSet lines of its .pvd

@@ -179,6 +179,14 @@ void ResultFolder::write_snapshot(const Model& model, const State& state, const 
     impl_->table.value().append_snapshot(model, state, fields, cracks);
 }
 
+void ResultFolder::write_culprits([[maybe_unused]] const Model& model, [[maybe_unused]] const State& state,
+                                  [[maybe_unused]] const std::vector<int>& bodies)
+{
+#ifdef GF_HAVE_VTK
+    if (!bodies.empty()) grainfrac::write_culprits(impl_->folder / "unstable.vtu", model, state, bodies);
+#endif
+}
+
 void ResultFolder::append_pull_out(const PullOutState& row, const FibreProfile& profile,
                                    const std::vector<double>& profiles_at)
 {

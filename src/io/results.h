@@ -148,6 +148,8 @@ public:
     void append_walls(const Model& model, const State& state);
     /// paraview/*.vtu|vtp + *.pvd, and the snapshot group of results.h5. `contacts`: write the contact polygons too.
     void write_snapshot(const Model& model, const State& state, const SnapshotFields& fields, bool contacts);
+    /// unstable.vtu: where an instability shows.
+    void write_culprits(const Model& model, const State& state, const std::vector<int>& bodies);
     /// A row of pull_out.csv, and a profile where one is due.
     void append_pull_out(const PullOutState& row, const FibreProfile& profile, const std::vector<double>& profiles_at);
     /// checkpoint/step_N.h5; keeps the newest two. Throws std::runtime_error.

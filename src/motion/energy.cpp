@@ -37,7 +37,20 @@ struct KineticEnergy {
     }
 };
 
+struct Speed {
+    View<const Vec3> velocity;
+    View<const double> inverse_mass;
+    GF_FN double operator()(int i) const { return inverse_mass[i] > 0.0 ? norm(velocity[i]) : 0.0; }
+};
+
 }  // namespace
+
+double fastest_speed(const Model& model, const State& state)
+{
+    const Device d = model.device;
+    const Bodies& b = state.bodies;
+    return parallel_max(d, b.size(), Speed{b.velocity.read(d), b.inverse_mass.read(d)});
+}
 
 double Ledger::relative_error() const
 {

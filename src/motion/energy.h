@@ -39,6 +39,9 @@ struct Momentum {
     Vec3 angular;       ///< about the origin [kg m^2/s]
     double mass = 0.0;  ///< [kg]
 };
+/// Of the fastest body that is not driven [m/s].
+double fastest_speed(const Model& model, const State& state);
+
 Momentum total_momentum(const Model& model, const State& state);
 
 }  // namespace grainfrac

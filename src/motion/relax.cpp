@@ -223,7 +223,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
             r.at_rest = true;
             break;
         }
-        if (interrupted && interrupted()) break;
+        if (!std::isfinite(r.residual) || (interrupted && interrupted())) break;
         const double stiff = parallel_sum(
             d, b.size(),
             Curvature{b.force.read(d), b.torque.read(d), old_force.read(d), old_torque.read(d), b.velocity.read(d),
