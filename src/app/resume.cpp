@@ -177,8 +177,9 @@ int resume_from(Restart& restart, const Options& o, ResultFolder& folder, const 
     }
     if (ended) {
         check_end(folder.path(), changed, *ended, c);
-        fmt::print(stderr, "warning: {}: the run has ended: {}; what came after {}, t = {:.4g} s, is made anew\n",
-                   folder.path().string(), ended->reason, restart.checkpoint.filename().string(), time);
+        fmt::print(stderr, "warning: {}: the run has ended: {}; what came after {}, t = {:.4g} s, {} made anew\n",
+                   folder.path().string(), ended->reason, restart.checkpoint.filename().string(), time,
+                   o.allow_changes ? "is" : "would be");
     }
     check_lost_changes(folder.path(), before, now, o.allow_changes);
     check_changes(folder.path(), changed, o.allow_changes, before);
