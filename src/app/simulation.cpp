@@ -84,7 +84,8 @@ public:
     {
         start(model_, state_);
         choose_step();
-        choose_intervals();
+        choose_history();
+        choose_snapshots();
         for (int i = 0; i < state_.bodies.size(); ++i)
             run_.energy_floor +=
                 negligible_energy * state_.bodies.mass[i] * experiment_.wave_speed * experiment_.wave_speed;
@@ -103,7 +104,7 @@ public:
         origin_ = now;
         record_.phases.build += build;
         if (restart.new_time_step) choose_step();
-        if (restart.new_intervals) choose_intervals();
+        change_intervals(restart);
         folder_.go_on(facts, origin_.resolved, mark_, case_.test.profiles_at);
         for (const auto& newer : restart.refused) {
             spdlog::warn("{} is damaged or of another version: set aside as {}.refused", newer.string(),
@@ -187,16 +188,32 @@ private:
         spdlog::info("time step {:.4g} s, stability limit {:.4g} s ({})", run_.dt, s.critical, s.limiter);
     }
 
-    void choose_intervals()
+    void choose_history()
     {
         const double expected = experiment_.expected_duration;
         run_.history = case_.output.history.value_or(expected > 0.0 ? std::max(expected / automatic_rows, run_.dt)
                                                                     : 100.0 * run_.dt);
+        record_.history_interval = run_.history;
+    }
+
+    void choose_snapshots()
+    {
+        const double expected = experiment_.expected_duration;
         const double count =
             case_.output.snapshots ? static_cast<double>(*case_.output.snapshots) : automatic_snapshots;
         run_.every = case_.output.every.value_or(expected > 0.0 ? expected / count : 5000.0 * run_.dt);
-        record_.history_interval = run_.history;
         record_.snapshot_interval = run_.every;
+    }
+
+    /// An interval that did not change stays: chosen anew from the present, shorter step it would move rows, and with
+    /// them where stages end. A new one counts from the last row or snapshot.
+    void change_intervals(const Restart& restart)
+    {
+        const double history = run_.history, every = run_.every;
+        if (restart.new_history) choose_history();
+        if (restart.new_snapshots) choose_snapshots();
+        if (!record_.rows.empty()) run_.next_history += run_.history - history;
+        if (run_.next_snapshot > 0.0) run_.next_snapshot += run_.every - every;
     }
 
     Ending run_stage(const Stage& stage)
@@ -692,9 +709,9 @@ private:
     bool checkpoint_is_due() const
     {
         const OutputSpec& o = case_.output;
-        return (o.checkpoint > 0.0 && seconds_since(last_checkpoint_) > o.checkpoint) ||
-               (o.checkpoint_steps && state_.step - last_checkpoint_step_ >= *o.checkpoint_steps) ||
-               checkpoint_asked_for();
+        const bool asked = checkpoint_asked_for();  // one that is due anyway fulfils the wish
+        return asked || (o.checkpoint > 0.0 && seconds_since(last_checkpoint_) > o.checkpoint) ||
+               (o.checkpoint_steps && state_.step - last_checkpoint_step_ >= *o.checkpoint_steps);
     }
 
     /// A state that is not possible is never written over a good one.

@@ -88,7 +88,8 @@ struct Restart {
     std::vector<std::filesystem::path> refused;  ///< newer ones, to be set aside
     bool input_changed = false;
     bool new_time_step = false;  ///< to be chosen anew
-    bool new_intervals = false;  ///< of history and snapshots
+    bool new_history = false;    ///< its interval
+    bool new_snapshots = false;  ///< theirs
 };
 
 /// Step through all stages of `built`, writing into `folder`. The state is left at the end of the run. With `restart`

@@ -281,6 +281,8 @@ void read_checkpoint(const fs::path& path, const std::string& version, const Che
         throw;
     } catch (const std::runtime_error& e) {
         throw CheckpointError(e.what());
+    } catch (const std::exception& e) {  // bad_alloc, length_error, out_of_range: it tells impossible sizes
+        throw CheckpointError(fmt::format("{}: holds what cannot be ({})", path.string(), e.what()));
     }
 }
 

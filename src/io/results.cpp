@@ -232,6 +232,8 @@ void ResultFolder::go_on(const RunFacts& facts, const std::string& resolved_toml
     }
     // written at an end that is none any more; the first of them tells that a run has ended
     for (const char* file : {"summary.json", "fragments.csv", "clusters.csv"}) fs::remove(folder / file);
+    fs::remove_all(folder / "plots");
+    fs::create_directory(folder / "plots");
     write_file(folder / marker, resolved_toml);
     impl_->history.emplace(folder / "history.csv", mark.history);
     if (mark.walls)

@@ -213,7 +213,9 @@ TEST_CASE("a changed input is listed and refused; what can change in a run is al
     refused({"--set", "stages[0].max_displacement='0.1 mm'"}, "stages[0].max_displacement: 0.0001, was 0.00012\n");
     refused({"--set", "bonds[0].tensile_strength='9 MPa'"},
             "bonds[0].tensile_strength: 9000000.0, was 2000000.0 (cannot");
-    refused({"--set", "bonds[0].tensile_strength='9 MPa'", "--allow-changes"}, "undo these changes");
+    refused({"--set", "bonds[0].tensile_strength='9 MPa'", "--allow-changes"},
+            "undo these changes; begin anew with grainfrac run " + (w.folder / "scene.toml").string() +
+                " --out out --force");
     refused({"--set", "bonds[0].strength='9 MPa'"}, "unknown key");
     const std::string input = text_of(w.folder / "out/input.toml");
     std::string edited = input;
@@ -228,10 +230,87 @@ TEST_CASE("a changed input is listed and refused; what can change in a run is al
     // ended: said so; with another end there is something to do
     CHECK(resume(w, "out") == 0);
     CHECK(text_of(w.folder / "out.txt").find("the run has ended: displacement 0.0001") != std::string::npos);
+    const std::string summary = text_of(w.folder / "out/summary.json");
+    const auto left_alone = [&](const std::vector<std::string>& more) {
+        refused(more, "the run has ended: displacement 0.0001");
+        CHECK(text_of(w.folder / "out/summary.json") == summary);
+    };
+    left_alone({"--set", "output.checkpoint_steps=77", "--allow-changes"});
+    left_alone({"--set", "stages[0].max_displacement='0.09 mm'", "--allow-changes"});
+    left_alone({"--set", "control.time_step_safety=0.1", "--allow-changes"});
+    refused({"--set", "stages[0].max_displacement='0.11 mm'"}, "go on with the new values with --allow-changes");
+    CHECK(text_of(w.folder / "out/summary.json") == summary);
+    std::ofstream(w.folder / "out/plots/energies.svg") << "of the earlier end";
     CHECK(resume(w, "out", {"--set", "stages[0].max_displacement='0.11 mm'", "--allow-changes"}) == 0);
+    CHECK(said(w).find("is made anew") != std::string::npos);
+    CHECK(!fs::exists(w.folder / "out/plots/energies.svg"));
     CHECK(history_rows(w.folder / "out/history.csv").size() > 50);
     CHECK(resume(w, "nowhere") == 2);
     CHECK(said(w).find("\"nowhere\" is no folder") != std::string::npos);
+}
+
+TEST_CASE("an interval that the input leaves open stays when something else is changed in the course of a run")
+{
+    const Workplace w;
+    Scene scene = spheres(200);
+    const std::size_t line = scene.input.find("history = ");
+    scene.input.erase(line, scene.input.find('\n', line) + 1 - line);  // 100 steps
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    const auto rows_of = [&](const char* out) { return history_rows(w.folder / out / "history.csv"); };
+    run_and_kill(w, scene, "out", 5);
+    CHECK(resume(w, "out", {"--set", "output.checkpoint_steps=300", "--allow-changes"}) == 0);
+    CHECK(rows_of("out") == rows_of("whole"));
+    fs::remove_all(w.folder / "out");
+    run_and_kill(w, scene, "out", 5);
+    CHECK(resume(w, "out",
+                 {"--set", "control.time_step_safety=0.1", "--set", "output.checkpoint_steps=300",
+                  "--allow-changes"}) == 0);
+    INFO(said(w));
+    // between two rows near the end, to one step
+    const auto interval = [&](const char* out) {
+        const std::vector<std::string> rows = rows_of(out);
+        const auto time = [&](std::size_t back) {
+            const std::string& row = rows.at(rows.size() - back);
+            return std::stod(row.substr(row.find(',') + 1));
+        };
+        return time(3) - time(4);
+    };
+    CHECK(interval("out") == Approx(interval("whole")).epsilon(0.02));
+}
+
+TEST_CASE("an allowed change that only a damaged checkpoint knows is not lost unseen")
+{
+    const Workplace w;
+    const Scene scene = spheres(200);
+    run_and_kill(w, scene, "out", 30);
+    const std::vector<std::string> change{"--set", "stages[0].max_displacement='0.1 mm'", "--allow-changes"};
+    {
+        std::vector<std::string> a = resume_arguments("out");
+        a.insert(a.end(), change.begin(), change.end());
+        a.insert(a.end(), {"--set", "output.checkpoint_steps=1000000"});
+        const std::size_t rows = history_rows(w.folder / "out/history.csv").size();
+        const fs::path newest = checkpoints(w.folder / "out").front();
+        const auto written = fs::last_write_time(newest);
+        Child child(w, a);
+        while (child.running() &&
+               (checkpoints(w.folder / "out").front() == newest && fs::last_write_time(newest) == written))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        wait_for_rows(child, w.folder / "out/history.csv", rows + 1);
+        REQUIRE(child.running());
+        child.send(SIGKILL);
+        child.wait();
+    }
+    const fs::path newest = checkpoints(w.folder / "out").front();
+    fs::resize_file(newest, 5000);
+    CHECK(resume(w, "out") == 2);
+    INFO(said(w));
+    CHECK(said(w).find("stages[0].max_displacement: 0.0001, was 0.00012\n") != std::string::npos);
+    CHECK(said(w).find("give them again with --set") != std::string::npos);
+    CHECK(fs::exists(newest));
+    CHECK(resume(w, "out",
+                 {"--set", "stages[0].max_displacement='0.1 mm'", "--set", "output.checkpoint_steps=1000000",
+                  "--allow-changes"}) == 0);
+    CHECK(text_of(w.folder / "out/summary.json").find("displacement 0.0001") != std::string::npos);
 }
 
 TEST_CASE("a folder at work is left alone, and so is a history that is not the run's", "[slow]")

@@ -362,6 +362,13 @@ TEST_CASE("an archive gives everything back", "[output][checkpoint]")
     Small wanted;
     CHECK_THROWS_AS(read_checkpoint(folder / "a.h5", "0.1.0", [&](Archive& archive) { archive("/other", wanted); }),
                     CheckpointError);
+    // whole, but telling impossible sizes
+    const auto fails = [&](const auto& exception) {
+        CHECK_THROWS_AS(read_checkpoint(folder / "a.h5", "0.1.0", [&](Archive&) { throw exception; }), CheckpointError);
+    };
+    fails(std::bad_alloc());
+    fails(std::length_error("vector"));
+    fails(std::out_of_range("at"));
 }
 
 TEST_CASE("an empty state makes a checkpoint", "[output][checkpoint]")
