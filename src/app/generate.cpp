@@ -22,9 +22,21 @@ bool has_kind(const Case& c, const char* kind)
     return std::any_of(c.parts.begin(), c.parts.end(), [&](const PartSpec& p) { return p.kind == kind; });
 }
 
+/// The endings tell a reader what is in a file.
+void check_ending(const Options& o, const char* extension, bool both)
+{
+    const std::string found = std::filesystem::path(o.out).extension().string();
+    const bool common = both && (found.empty() || found == ".json" || found == ".csv");
+    if (o.out.empty() || common || found == extension) return;
+    const std::string allowed = both ? "without an ending (grains go into .json, spheres into .csv)"
+                                     : fmt::format("with the ending {}", extension);
+    throw InputError("--out", fmt::format("\"{}\": give a name {}", o.out, allowed));
+}
+
 /// Grains and spheres go into two files; where a case has both, --out names what is common to them.
 std::filesystem::path out_file(const Options& o, const char* ending, const char* extension, bool both)
 {
+    check_ending(o, extension, both);
     std::filesystem::path out = o.out;
     if (o.out.empty()) out = std::filesystem::path(o.file).stem().string() + ending;
     if (!o.out.empty() && both) out.replace_extension(extension);

@@ -61,7 +61,7 @@ std::vector<std::string> plausibility_warnings(const Case& c, const Built& built
 {
     std::vector<InputProblem> found = implausible_input(c);
     for (InputProblem& p : implausible_model(c, built, step.dt, step.critical)) found.push_back(std::move(p));
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = built.experiment.warnings;
     const std::string_view severity = "warning: ";
     for (const InputProblem& p : found) {
         const std::string line = render_problems({p}, c.places, c.file, "warning");

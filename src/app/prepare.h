@@ -32,7 +32,7 @@ ChosenStep choose_time_step(const Case& c, const Model& model, const State& stat
 /// Evaluate the first forces and the time step, so that input that cannot run is refused before anything is written.
 void start_check(const Case& c, Built& built);
 
-/// What the input says and hardly means, each as "FILE:LINE: KEY = VALUE: message".
+/// What is to be known of the set-up; then what the input says and hardly means, as "FILE:LINE: KEY = VALUE: message".
 std::vector<std::string> plausibility_warnings(const Case& c, const Built& built, const ChosenStep& step);
 
 /// Contents of a file. Throws std::runtime_error.

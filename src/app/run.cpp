@@ -70,10 +70,10 @@ void warn_about_outcome(const Built& b, RunRecord& record)
              by_events ? "test.damage_step or test.relaxed" : "control.time_step_safety");
     }
     if (test.quasi_static && test.pull_out && record.imbalance_at_peak > 1e-2) {
-        spdlog::warn(
-            "at the peak the support bears {:.2g} more or less than the grip pulls with (quasi-static: < 0.01); load "
-            "more slowly",
-            record.imbalance_at_peak);
+        warn(record,
+             "at the peak the support bears {:.2g} more or less than the grip pulls with (quasi-static: < 0.01); load "
+             "more slowly",
+             record.imbalance_at_peak);
     }
     if (test.quasi_static && record.kinetic_over_elastic > 1e-2) {
         warn(record,
@@ -117,7 +117,6 @@ int carry_out(const Case& c, const Options& o, const RunFacts& facts, const RunO
         "threads",
         GRAINFRAC_VERSION, built.state.bodies.size(), built.state.interfaces.size(), built.state.points.size(),
         built.state.parallels.size(), built.state.sphere_bonds.size(), facts.device, threads());
-    for (const std::string& warning : built.experiment.warnings) spdlog::warn("{}", warning);
     if (restart == nullptr) {  // else they are in the record
         for (const std::string& line : plausibility_warnings(c, built, choose_time_step(c, built.model, built.state)))
             warn(record, "{}", line);

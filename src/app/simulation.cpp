@@ -183,6 +183,7 @@ private:
     {
         const ChosenStep s = choose_time_step(case_, model_, state_);
         run_.dt = s.dt;
+        run_.step_limit = 0.0;
         record_.critical_step = s.critical;
         record_.limiter = s.limiter;
         spdlog::info("time step {:.4g} s, stability limit {:.4g} s ({})", run_.dt, s.critical, s.limiter);

@@ -61,7 +61,7 @@ Stage make_stage(const Case& c, const StageSpec& s, const std::vector<Stage>& be
         stage.bonds = BondsToMake{BondTable(c, model, s.name), s.bond_distance, s.bond_angle};
         return stage;
     }
-    const Material& m = model.materials.front();
+    const Material& m = loaded_material(model);
     const double slow = quasi_static_speed(c, model),
                  fastest = slow > 0.0 ? slow : unbonded_servo_speed * std::sqrt(m.young_modulus / m.density);
     stage.servos.resize(walls.size());

@@ -3,6 +3,7 @@
 
 #include "experiment/lattice_stiffness.h"
 #include "experiment/laws.h"
+#include "experiment/specimen.h"
 
 #include <fmt/format.h>
 
@@ -190,7 +191,7 @@ std::vector<std::string> derived_lines(const Case& c, const Built& built)
     const double speed = closing_speed(built.experiment), strength = weakest_strength(c);
     const double length = built.experiment.specimen.length, c0 = built.experiment.wave_speed;
     if (speed > 0.0 && strength > 0.0 && length > 0.0 && c0 > 0.0) {
-        const double time = strength / model.materials.front().young_modulus * length / speed;
+        const double time = strength / loaded_material(model).young_modulus * length / speed;
         lines.push_back(
             fmt::format("loading: closing speed {:.4g} m/s, strain rate {:.4g} 1/s; stress sigma_c = {:.4g} Pa "
                         "takes at least {:.3g} s, {:.3g} passages of a wave",

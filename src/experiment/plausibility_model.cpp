@@ -167,7 +167,7 @@ private:
     void loading()
     {
         const double strength = weakest_strength(c_), speed = closing_speed(test_), guide = test_.quasi_static_speed;
-        const double length = test_.specimen.length, E = b_.model.materials.front().young_modulus;
+        const double length = test_.specimen.length, E = loaded_material(b_.model).young_modulus;
         const bool by_walls = test_.quasi_static && !test_.pull_out && speed > 0.0 && length > 0.0;
         if (!by_walls || !(strength > 0.0)) return;
         const bool loads =
@@ -212,7 +212,9 @@ private:
             if (bodies.inverse_mass[i] == 0.0 || is_sphere(b_.model, bodies, i)) continue;
             mass = std::max(mass, bodies.mass[i]);
             radius = std::min(radius, b_.model.shapes.radius[bodies.shape[i]]);
-            const double rho = b_.model.materials.front().density;
+            const auto material =
+                static_cast<std::size_t>(b_.model.groups[static_cast<std::size_t>(bodies.group[i])].material);
+            const double rho = b_.model.materials[material].density;
             area = std::max(area, std::cbrt(bodies.mass[i] / rho) * std::cbrt(bodies.mass[i] / rho));
         }
         double k = INFINITY;

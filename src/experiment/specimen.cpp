@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiment/specimen.h"
 
+#include "experiment/derived.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -67,15 +69,21 @@ double section_across(const Vec3& size, const Vec3& d)
     return std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.z * size.x + std::fabs(d.z) * size.x * size.y;
 }
 
+const Material& loaded_material(const Model& model)
+{
+    const Material* least = nullptr;
+    for (const Group& g : model.groups) {
+        if (g.material < 0) continue;  // a wall
+        const Material& m = model.materials[static_cast<std::size_t>(g.material)];
+        if (least == nullptr || m.density * m.young_modulus < least->density * least->young_modulus) least = &m;
+    }
+    return *least;
+}
+
 double quasi_static_speed(const Case& c, const Model& model)
 {
-    double strength = 0.0;
-    for (const BondSpec& b : c.bonds) {
-        if (b.tensile_strength > 0.0)
-            strength = strength > 0.0 ? std::min(strength, b.tensile_strength) : b.tensile_strength;
-    }
-    const Material& m = model.materials.front();
-    return 0.01 * strength / std::sqrt(m.density * m.young_modulus);
+    const Material& m = loaded_material(model);
+    return 0.01 * weakest_strength(c) / std::sqrt(m.density * m.young_modulus);
 }
 
 double mean_section(const Model& model, const State& state, int axis)

@@ -25,6 +25,10 @@ Extent specimen_extent(const Model& model, const State& state);
 double length_along(const Vec3& size, const Vec3& direction);
 double section_across(const Vec3& size, const Vec3& direction);
 
+/// Of the parts' materials the one of the smallest impedance sqrt(E rho): the matrix, not its fibres. One that no part
+/// is of does not count.
+const Material& loaded_material(const Model& model);
+
 /// 0.01 sigma_c/(rho c_0) of the weakest bonds, a bound for the speed of each platen; 0 without a strength [m/s].
 double quasi_static_speed(const Case& c, const Model& model);
 

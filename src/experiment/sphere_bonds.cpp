@@ -153,7 +153,8 @@ private:
         const Packing packing = packing_of(part);
         AutoStiffness a;
         a.section = CircularSection(p.radius).area;
-        const double density = packing == Packing::random ? bond_density(part, p, a.section) : 1.0 / part.diameter;
+        const double density =
+            packing == Packing::random ? bond_density(spec, part, p, a.section) : 1.0 / part.diameter;
         const std::string key = fmt::format("bonds[{}].", table_.entry_of(*p.rule));
         LatticeStiffness k{};
         if (spec.shear_ratio) {
@@ -173,11 +174,12 @@ private:
     }
 
     /// Sum of w l^2 over the bonds of the packing, w their section over `section`, over its volume [1/m].
-    double bond_density(const PartSpec& part, const Candidate& p, double section) const
+    double bond_density(const BondSpec& spec, const PartSpec& part, const Candidate& p, double section) const
     {
         const bool no_region = part.region.diameter == 0.0 && norm2(part.region.size) == 0.0;
         if (no_region) {
-            throw InputError(fmt::format("bonds[{}].normal_stiffness", table_.entry_of(*p.rule)),
+            const char* key = spec.normal_stiffness ? "shear_ratio" : "normal_stiffness";
+            throw InputError(fmt::format("bonds[{}].{}", table_.entry_of(*p.rule), key),
                              "\"auto\" needs the region that the spheres fill; give a value, or the part's region");
         }
         double sum = 0.0;

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <sys/resource.h>
@@ -43,6 +44,17 @@ void limit(int resource, rlim_t most)
     setrlimit(static_cast<__rlimit_resource_t>(resource), &now);
 }
 
+/// What this process holds of what RLIMIT_DATA counts, VmData of Linux: a child starts with the heap of its parent.
+rlim_t held_data()
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        rlim_t kib = 0;
+        if (word == "VmData:" && status >> kib) return kib << 10;
+    }
+    return 0;
+}
+
 void set_limits(const std::filesystem::path& file)
 {
     std::error_code unknown;
@@ -50,7 +62,7 @@ void set_limits(const std::filesystem::path& file)
     const rlim_t bytes = unknown ? 0 : static_cast<rlim_t>(size);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, base_seconds + bytes / bytes_a_second);
-    if (limits_memory) limit(RLIMIT_DATA, base_memory + memory_factor * bytes);
+    if (limits_memory) limit(RLIMIT_DATA, held_data() + base_memory + memory_factor * bytes);
 }
 
 bool write_all(int fd, const void* data, std::size_t size)

@@ -210,6 +210,17 @@ TEST_CASE("generate writes grains and spheres into two files, and spheres that c
     std::ofstream(w.folder / "again.toml") << rock + balls + "generator = \"file\"\nfile = \"all.csv\"\n" + test;
     REQUIRE(w.run("generate again.toml").code == 0);
     CHECK(text_of(w.folder / "again.spheres.csv") == text_of(w.folder / "all.csv"));
+    const Outcome other = w.run("generate again.toml --out again.h5");
+    CHECK(other.code == 2);
+    CHECK(other.err.find("--out: \"again.h5\": give a name with the ending .csv") != std::string::npos);
+    CHECK(w.run("generate both.toml --out more.vtk").code == 2);
+    CHECK_FALSE(fs::exists(w.folder / "again.h5"));
+    std::ofstream(w.folder / "ratio.toml")
+        << rock + balls +
+               "generator = \"file\"\nfile = \"all.csv\"\n[[bonds]]\nbetween = "
+               "[\"balls\", \"balls\"]\nfailure = \"unbreakable\"\nlaw = \"spring\"\nnormal_stiffness = 1e9\n" +
+               test;
+    CHECK(w.run("check ratio.toml").err.find("bonds[0].shear_ratio: \"auto\" needs the region") != std::string::npos);
 }
 
 TEST_CASE("check reports without running")

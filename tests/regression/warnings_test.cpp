@@ -43,3 +43,21 @@ TEST_CASE("a run keeps its warnings")
     REQUIRE(w.run("run bar.toml --threads 1 --no-report -q --out slow").code == 0);
     CHECK(w.summary("slow")["warnings"].empty());
 }
+
+TEST_CASE("warnings of the set-up go where the others go")
+{
+    const Workplace w;
+    REQUIRE(w.run("new pull_out -o pull.toml").code == 0);
+    const std::string hooked =
+        " pull.toml --threads 1 --set 'parts[1].fibre.shape=\"hooked\"'"
+        " --set 'parts[1].fibre.hook_length=\"1 mm\"'";
+    const auto says = Contains("its bends bear on nothing");
+    const Outcome o = w.run("check" + hooked);
+    CHECK(o.code == 0);
+    CHECK_THAT(o.err, says);
+    REQUIRE(w.run("run -q --no-report --set 'test.stop.time=\"1 us\"' --out pulled" + hooked).code == 0);
+    CHECK_THAT(text_of(w.folder / "pulled" / "run.log"), says);
+    const nlohmann::json warnings = w.summary("pulled")["warnings"];
+    REQUIRE(warnings.size() >= 1);
+    CHECK_THAT(warnings[0].get<std::string>(), says);
+}

@@ -101,6 +101,9 @@ TEST_CASE("custom: a servo holds its stress and its work is in the account")
     press.ramp = 10e-6;
     press.motions[0].servo.area = hexagon;
     c.stages = {press};
+    // no strength sets the limit of the speed where nothing can break
+    CHECK(begun(c).experiment.stages[0].servos[0].max_speed == Approx(1e-5 * std::sqrt(410e9 / 3100)));
+    c.bonds[0].failure = BondSpec{}.failure;
     Built b = begun(c);
     enter(b, 0);
     const double dt = stable_step(b), wanted = 50e6 * hexagon;

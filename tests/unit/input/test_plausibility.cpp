@@ -2,6 +2,7 @@
 // A warning for each thing that is hardly meant, with its numbers; none for any example.
 #include "experiment/derived.h"
 #include "experiment/plausibility.h"
+#include "experiment/specimen.h"
 #include "input_files.h"
 #include "motion/step.h"
 #include "motion/time_step.h"
@@ -175,6 +176,44 @@ TEST_CASE("no start file and no small example gives a warning", "[input]")
         INFO(kind);
         CHECK(listed(warnings(checked(read_text(new_case(kind))))) == "");
     }
+}
+
+TEST_CASE("a material that no part is of changes nothing, listed first", "[input]")
+{
+    const auto said = [](const Checked& x) {
+        std::string text = listed(implausible_model(x.input, x.built, 0.1 * x.critical, x.critical));
+        for (const std::string& line : derived_lines(x.input, x.built)) {
+            if (line.find("\"unused\"") == std::string::npos) text += line + '\n';
+        }
+        return text;
+    };
+    for (const char* kind : {"uniaxial_tension", "custom", "drop"}) {
+        INFO(kind);
+        Case c = read_text(new_case(kind));
+        if (c.test.kind == "uniaxial_tension") c.test.platen_speed *= 100.0;
+        const Checked x = checked(c);
+        c.materials.insert(c.materials.begin(), c.materials[0]);
+        c.materials[0].name = "unused";
+        c.materials[0].density *= 1e-4;
+        c.materials[0].young_modulus *= 1e-6;
+        const Checked y = checked(c);
+        CHECK(said(y) == said(x));
+        CHECK(y.built.experiment.quasi_static_speed == x.built.experiment.quasi_static_speed);
+        for (std::size_t s = 0; s < x.built.experiment.stages.size(); ++s) {
+            const std::vector<Servo>&a = x.built.experiment.stages[s].servos, &b = y.built.experiment.stages[s].servos;
+            REQUIRE(a.size() == b.size());
+            for (std::size_t w = 0; w < a.size(); ++w) CHECK(a[w].max_speed == b[w].max_speed);
+        }
+    }
+    Case c = read_text(new_case("uniaxial_tension"));
+    const double guide = checked(c).built.experiment.quasi_static_speed;
+    CHECK(guide > 0.0);
+    BondSpec rigid = c.bonds[0];
+    rigid.failure = "unbreakable";
+    rigid.tensile_strength *= 0.01;
+    rigid.between = {"*", "*"};
+    c.bonds.push_back(rigid);
+    CHECK(quasi_static_speed(c, checked(read_text(new_case("uniaxial_tension"))).built.model) == guide);
 }
 
 TEST_CASE("no example gives a warning", "[input][slow]")

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <sys/mman.h>
 
 using namespace grainfrac;
 using Catch::Matchers::Contains;
@@ -36,6 +37,10 @@ std::vector<Ball> gives_up(const std::filesystem::path&)
 {
     std::_Exit(3);
 }
+std::vector<Ball> takes_some_memory(const std::filesystem::path&)
+{
+    return {std::vector<Ball>(1 << 20).back()};
+}
 std::vector<Ball> needs_all_memory(const std::filesystem::path&)
 {
     throw std::bad_alloc();
@@ -58,6 +63,16 @@ TEST_CASE("whatever a reader does to its process ends as a message", "[output]")
     CHECK_THROWS_WITH(read_isolated(crashes, "file"), Contains("\"file\"") && Contains("crashed"));
     CHECK_THROWS_WITH(read_isolated(gives_up, "file"), Contains("crashed"));
     CHECK_THROWS_WITH(read_isolated(needs_all_memory, "file"), Contains("memory"));
+}
+
+TEST_CASE("what the program holds already is not taken from what a reader may have", "[output]")
+{
+    const std::size_t held = std::size_t{3} << 30;  // more than the limit of a small file; never touched
+    void* const memory =
+        mmap(nullptr, held, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    CHECK(read_isolated(takes_some_memory, "file").size() == 1);
+    munmap(memory, held);
 }
 
 TEST_CASE("an attribute of several values is not read into the place of one", "[output]")
