@@ -2,6 +2,7 @@
 #include "fracture/bond_forces.h"
 
 #include "contact/linear_contact.h"
+#include "fracture/face_moments.h"
 #include "fracture/interface_frame.h"
 #include "gpu/parallel.h"
 #include "model/views.h"
@@ -20,6 +21,7 @@ struct InterfaceForces {
 
     View<const std::int32_t> a, b, law, point_begin, corner_begin;
     View<const Vec3> normal_a, normal_b, tangent_a, tangent_b;
+    View<const FaceMoments> moments;
     View<const double> area, slip_limit, pressure, normal_stiffness, shear_stiffness, normal_damping, shear_damping;
     View<const double> strength_factor, toughness_factor, opening_limit;
     View<const Vec3> point_a, point_b, corner_a, corner_b;
@@ -62,6 +64,14 @@ struct InterfaceForces {
                dot(viscous_torque_b[i], body.angular_velocity[b[i]]);
     }
 
+    /// Elastic forces, and those of the dashpots: on a; torques on a and b.
+    struct FaceAction {
+        Vec3 force, torque_a, torque_b;
+        Vec3 drag, drag_torque_a, drag_torque_b;
+        Mat3 dyad_a, dyad_b;
+        double stored = 0.0;
+    };
+
     GF_FN void operator()(int i) const
     {
         if (retired[i] != 0) {
@@ -77,20 +87,96 @@ struct InterfaceForces {
         const InterfaceFrame f = frame(i);
         const bool by_face = l.failure == FailureUnit::face;
         const bool may_fail = fracture_active && l.failure != FailureUnit::unbreakable;
-        const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
-        const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
         const double c_n = dashpots_active ? normal_damping[i] : 0.0, c_s = dashpots_active ? shear_damping[i] : 0.0;
-        const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
-        const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
-
         // Work of dashpots, trapezoidal in time: half of each force with the velocity before it, half with the one
         // after.
         double viscous = 0.5 * power_on_bodies(i);
+        FaceAction s;
+        if (first_damage_time[i] >= 0.0 || !whole_face(i, f, l, may_fail, c_n, c_s, s)) {
+            const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
+            by_points(i, f, l, may_fail && !by_face, fail_now, c_n, c_s, s);
+        }
+        viscous_force[i] = s.drag;
+        viscous_torque_a[i] = s.drag_torque_a;
+        viscous_torque_b[i] = s.drag_torque_b;
+        viscous += 0.5 * power_on_bodies(i);
+        viscous_work[i] -= viscous * dt;
 
-        Vec3 force, torque_a, torque_b;  // elastic, on a; torques on a and b
-        Vec3 drag, drag_torque_a, drag_torque_b;
-        Mat3 dyad_a, dyad_b;
-        double stored = 0.0, fractured = 0.0, slid = 0.0, sheared = 0.0, damaged = 0.0;
+        slot.force[i] = -(s.force + s.drag);
+        slot.torque_a[i] = s.torque_a + s.drag_torque_a;
+        slot.torque_b[i] = s.torque_b + s.drag_torque_b;
+        if (slot.dyad_a.size > 0) {
+            slot.dyad_a[i] = s.dyad_a;
+            slot.dyad_b[i] = s.dyad_b;
+        }
+        stored_energy[i] = s.stored;
+    }
+
+    /// A face without damage, none of whose points can meet the onset surface: the jump is linear over the face, so
+    /// that forces follow from its moments. False: some point might; then each has to be asked.
+    GF_FN bool whole_face(int i, const InterfaceFrame& f, const InterfaceLaw& l, bool may_fail, double c_n, double c_s,
+                          FaceAction& s) const
+    {
+        const FaceMoments m = moments[i];
+        if (m.area == 0.0) return false;
+        const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
+        const Vec3 arm_a = f.rotation_a * m.centre_a, arm_b = f.rotation_b * m.centre_b;
+        const Vec3 a1 = f.rotation_a * tangent_a[i], a2 = cross(f.rotation_a * normal_a[i], a1);
+        const Vec3 b1 = f.rotation_b * tangent_b[i], b2 = cross(f.rotation_b * normal_b[i], b1);
+        const Vec3 jump = f.between + arm_b - arm_a, jump_1 = b1 - a1, jump_2 = b2 - a2;
+        if (may_fail) {  // at the worst corner of the rectangle about all points and corners
+            const InterfaceJump d = f.in_frame(jump), d_1 = f.in_frame(jump_1), d_2 = f.in_frame(jump_2);
+            const auto most = [&](double at_centre, double per_1, double per_2) {
+                return at_centre + m.reach_1 * std::fabs(per_1) + m.reach_2 * std::fabs(per_2);
+            };
+            const double s1 = most(std::fabs(d.s1), d_1.s1, d_2.s1), s2 = most(std::fabs(d.s2), d_1.s2, d_2.s2);
+            if (!l.below_onset(k_n * most(d.n, d_1.n, d_2.n), k_s * k_s * (s1 * s1 + s2 * s2), strength_factor[i]))
+                return false;
+        }
+        // both forces act at the midpoint of the two points: see by_points
+        const Vec3 middle_a = arm_a + 0.5 * jump, middle_b = arm_b - 0.5 * jump;
+        const Vec3 along_1 = 0.5 * (a1 + b1), along_2 = 0.5 * (a2 + b2);
+        // force, moment of its gradient over the face
+        const auto sum = [&](const Vec3& at_centre, const Vec3& per_1, const Vec3& per_2, Vec3& force, Vec3& torque_a,
+                             Vec3& torque_b) {
+            force = m.area * at_centre;
+            const Vec3 bending =
+                cross(along_1, m.xx * per_1 + m.xy * per_2) + cross(along_2, m.xy * per_1 + m.yy * per_2);
+            torque_a = cross(middle_a, force) + bending;
+            torque_b = -(cross(middle_b, force) + bending);
+        };
+        const auto acting = [&](double n, double t, const Vec3& v) { return ((n - t) * dot(v, f.n)) * f.n + t * v; };
+        Vec3 t0 = acting(k_n, k_s, jump), t1 = acting(k_n, k_s, jump_1), t2 = acting(k_n, k_s, jump_2);
+        sum(t0, t1, t2, s.force, s.torque_a, s.torque_b);
+        s.stored = 0.5 * (m.area * dot(jump, t0) + m.xx * dot(jump_1, t1) + 2.0 * m.xy * dot(jump_1, t2) +
+                          m.yy * dot(jump_2, t2));
+        if (c_n + c_s > 0.0) {
+            const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]], spin = wb - wa;
+            const Vec3 rate = body.velocity[b[i]] - body.velocity[a[i]] + cross(wb, middle_b) - cross(wa, middle_a);
+            const Vec3 d0 = acting(c_n, c_s, rate), d1 = acting(c_n, c_s, cross(spin, along_1)),
+                       d2 = acting(c_n, c_s, cross(spin, along_2));
+            sum(d0, d1, d2, s.drag, s.drag_torque_a, s.drag_torque_b);
+            t0 += d0;
+            t1 += d1;
+            t2 += d2;
+        }
+        if (slot.dyad_a.size > 0) {
+            const Mat3 bending =
+                Mat3::outer(along_1, m.xx * t1 + m.xy * t2) + Mat3::outer(along_2, m.xy * t1 + m.yy * t2);
+            s.dyad_a = Mat3::outer(middle_a, m.area * t0) + bending;
+            s.dyad_b = -1.0 * (Mat3::outer(middle_b, m.area * t0) + bending);
+        }
+        return true;
+    }
+
+    /// Every point by itself, as the law sees it.
+    GF_FN void by_points(int i, const InterfaceFrame& f, const InterfaceLaw& l, bool may_start, bool fail_now,
+                         double c_n, double c_s, FaceAction& s) const
+    {
+        const double k_n = normal_stiffness[i], k_s = shear_stiffness[i];
+        const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
+        const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
+        double fractured = 0.0, slid = 0.0, sheared = 0.0, damaged = 0.0;
         double least_opening = 1e300, most_sliding2 = 0.0;
         for (int q = point_begin[i]; q < point_begin[i + 1]; ++q) {
             const double w = weight[q];
@@ -107,7 +193,7 @@ struct InterfaceForces {
             const double rate_n = dot(rate, f.n);
             const InterfaceJump before{d_n - dt * rate_n, d_1 - dt * dot(rate, f.t1), d_2 - dt * dot(rate, f.t2)};
             const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i],
-                                          may_fail && !by_face, fail_now, p, fracture_active, pressure[i]);
+                                          may_start, fail_now, p, fracture_active, pressure[i]);
             if (p.onset > 0.0) {
                 point_damage[q] = p.damage;
                 point_onset[q] = p.onset;
@@ -115,7 +201,7 @@ struct InterfaceForces {
                 point_slip[q] = {p.slip1, p.slip2};
                 if (onset_before == 0.0 && first_damage_time[i] < 0.0) first_damage_time[i] = time;
             }
-            stored += w * r.stored;
+            s.stored += w * r.stored;
             fractured += w * r.fracture_work;
             slid += w * r.friction_work;
             sheared += w * r.shear_share;
@@ -125,36 +211,22 @@ struct InterfaceForces {
 
             // Both forces act at the midpoint: at their own points the pair would leave the torque jump x traction.
             const Vec3 t = w * (r.normal * f.n + r.shear1 * f.t1 + r.shear2 * f.t2);
-            force += t;
-            torque_a += cross(middle_a, t);
-            torque_b -= cross(middle_b, t);
+            s.force += t;
+            s.torque_a += cross(middle_a, t);
+            s.torque_b -= cross(middle_b, t);
             Vec3 t_all = t;
             if (c_n + c_s > 0.0 && p.damage < 1.0) {
                 const Vec3 v = (w * (1.0 - p.damage)) * ((c_n - c_s) * rate_n * f.n + c_s * rate);
-                drag += v;
-                drag_torque_a += cross(middle_a, v);
-                drag_torque_b -= cross(middle_b, v);
+                s.drag += v;
+                s.drag_torque_a += cross(middle_a, v);
+                s.drag_torque_b -= cross(middle_b, v);
                 t_all += v;
             }
             if (slot.dyad_a.size > 0) {
-                dyad_a = dyad_a + Mat3::outer(middle_a, t_all);
-                dyad_b = dyad_b - Mat3::outer(middle_b, t_all);
+                s.dyad_a = s.dyad_a + Mat3::outer(middle_a, t_all);
+                s.dyad_b = s.dyad_b - Mat3::outer(middle_b, t_all);
             }
         }
-        viscous_force[i] = drag;
-        viscous_torque_a[i] = drag_torque_a;
-        viscous_torque_b[i] = drag_torque_b;
-        viscous += 0.5 * power_on_bodies(i);
-        viscous_work[i] -= viscous * dt;
-
-        slot.force[i] = -(force + drag);
-        slot.torque_a[i] = torque_a + drag_torque_a;
-        slot.torque_b[i] = torque_b + drag_torque_b;
-        if (slot.dyad_a.size > 0) {
-            slot.dyad_a[i] = dyad_a;
-            slot.dyad_b[i] = dyad_b;
-        }
-        stored_energy[i] = stored;
         fracture_work[i] += fractured;
         friction_work[i] += slid;
         shear_share[i] += sheared;
@@ -289,6 +361,7 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt, De
             i.normal_b.read(d),
             i.tangent_a.read(d),
             i.tangent_b.read(d),
+            i.moments.read(d),
             i.area.read(d),
             i.slip_limit.read(d),
             i.pressure.read(d),
@@ -378,6 +451,7 @@ void bond_forces(const Model& model, State& state, const std::vector<int>& inter
 
 void start_bonds(const Model&, State& state)
 {
+    find_face_moments(state);
     ParallelBonds& p = state.parallels;
     for (int i = 0; i < p.size(); ++i) {
         const Vec3 na = rotate(state.bodies.orientation[p.a[i]], p.normal_a[i]);

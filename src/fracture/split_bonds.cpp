@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fracture/split_bonds.h"
 
+#include "fracture/face_moments.h"
 #include "model/rearrange.h"
 
 #include <algorithm>
@@ -231,6 +232,7 @@ private:
         if (flipped) std::reverse(corners.begin(), corners.end());
         put_corners(corners, n, first_corner);
         set_width(corners, n);
+        f.moments.at(n) = face_moments(state_, n);
     }
 
     /// Everything but what it carries.

@@ -19,6 +19,15 @@ struct Vec2 {
     double x = 0.0, y = 0.0;
 };
 
+/// What the points of a flat face add up to: a face without damage needs no more. A point lies at centre + xi t_1 +
+/// eta t_2 in either frame, t_2 = normal x tangent.
+struct FaceMoments {
+    Vec3 centre_a, centre_b;  ///< weighted mean of the points, in the frames of a and b [m]
+    double area = 0.0;        ///< sum of the weights; 0: the points do not lie so, each counts by itself [m^2]
+    double xx = 0.0, xy = 0.0, yy = 0.0;  ///< sums of weight times xi^2, xi eta, eta^2 [m^4]
+    double reach_1 = 0.0, reach_2 = 0.0;  ///< largest |xi|, |eta| of points and corners [m]
+};
+
 /// Grain boundaries, one entry per shared face (physics: total form, no history but damage and slip).
 struct InterfaceBonds {
     Buffer<std::int32_t> a, b;          ///< bodies
@@ -27,6 +36,7 @@ struct InterfaceBonds {
     Buffer<std::int32_t> corner_begin;  ///< first corner of the face polygon; one more entry at the end
     Buffer<Vec3> normal_a, normal_b;    ///< unit normal from a to b, in the frames of a and b [-]
     Buffer<Vec3> tangent_a, tangent_b;  ///< first tangent, in the frames of a and b [-]
+    Buffer<FaceMoments> moments;        ///< follow from the points
     Buffer<double> area;                ///< [m^2]
     Buffer<double> slip_limit;          ///< sliding beyond which a dead face is handed to general contact [m]
     Buffer<double> normal_stiffness;    ///< k_n per area [Pa/m]
@@ -71,6 +81,7 @@ struct InterfaceBonds {
         visit("normal_b", normal_b);
         visit("tangent_a", tangent_a);
         visit("tangent_b", tangent_b);
+        visit("moments", moments);
         visit("area", area);
         visit("slip_limit", slip_limit);
         visit("normal_stiffness", normal_stiffness);

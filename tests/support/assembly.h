@@ -4,6 +4,7 @@
 
 #include "contact/gather.h"
 #include "fracture/bond_forces.h"
+#include "fracture/face_moments.h"
 #include "generate/assemble.h"
 #include "geometry/cut.h"
 #include "gpu/device.h"
@@ -74,6 +75,7 @@ inline void bond(Assembly& a, const InterfaceLaw& law, double modulus, double k_
     r.shear_ratio = shear_ratio;
     r.damping = damping;
     bond_shared_faces(a.model, a.state, a.grains, 1, [&](int, int) { return &r; });
+    find_face_moments(a.state);
 }
 
 inline void set_position(State& s, int i, const Vec3& x)

@@ -359,3 +359,65 @@ TEST_CASE("a sheared face that retires hands over to contact: no jump of the for
                         e.friction) < 1e-3 * work);
     }
 }
+
+TEST_CASE("a whole face acts as its points do, one by one")
+{
+    InterfaceLaw law = elastic_law();
+    law.tensile_strength = law.cohesion = 20;
+    law.failure = FailureUnit::point;
+    law.fracture_energy_I = law.fracture_energy_II = 10;
+    int draw = 0, by_moments = 0;
+    for (int k = 0; k < 200; ++k) {
+        const QuadratureRule rule = k % 2 == 0 ? QuadratureRule::gauss2 : QuadratureRule::fan7;
+        Assembly whole = assemble({grain(make_hexagonal_prism(0.6, 1.3), {}),
+                                   grain(translated(make_hexagonal_prism(0.6, 1.3), {0, 0, 1.3}), {0, 0, 1.3})});
+        bond(whole, law, 0.0, k_n, k_s / k_n, rule, 0.1);
+        REQUIRE(whole.state.interfaces.moments[0].area == Approx(1.5 * std::sqrt(3.0) * 0.36));
+        State& s = whole.state;
+        build_incidence(s);
+        s.slots.dyad_a.resize(1);
+        s.slots.dyad_b.resize(1);
+        const double size = std::pow(10.0, -4.0 + 2.5 * std::fabs(random_vector(draw).x));
+        for (int i = 0; i < 2; ++i) {
+            shift(s, i, size * random_vector(draw));
+            const Vec3 w = random_vector(draw);
+            turn(s, i, from_axis_angle(normalized(w), size * norm(w)));
+            s.bodies.velocity.at(i) = random_vector(draw);
+            s.bodies.angular_velocity.at(i) = random_vector(draw);
+        }
+        // everything turned: no axis is special
+        const Vec3 turned = 3.0 * random_vector(draw);
+        for (int i = 0; i < 2; ++i) {
+            set_position(s, i, rotate(from_axis_angle(normalized(turned), norm(turned)), s.bodies.position[i]));
+            turn(s, i, from_axis_angle(normalized(turned), norm(turned)));
+        }
+        Assembly points = whole;
+        points.state.interfaces.moments.at(0).area = 0.0;
+        bond_forces(whole.model, whole.state, 1e-3);
+        bond_forces(points.model, points.state, 1e-3);
+        const State& p = points.state;
+        const InterfaceBonds &f = s.interfaces, &g = p.interfaces;
+        // some point has met the surface: then both have gone through the points, and agree to the bit
+        const bool damaged = g.first_damage_time[0] >= 0.0;
+        if (!damaged) ++by_moments;
+        const double off = damaged ? 0.0 : 1e-14 / size;  // round-off of positions of about 1 in jumps of `size`
+        CHECK((f.first_damage_time[0] >= 0.0) == damaged);
+        const auto same = [&](const Vec3& x, const Vec3& y) { CHECK(norm(x - y) <= off * (norm(x) + norm(y))); };
+        same(s.slots.force[0], p.slots.force[0]);
+        same(s.slots.torque_a[0], p.slots.torque_a[0]);
+        same(s.slots.torque_b[0], p.slots.torque_b[0]);
+        same(f.viscous_force[0], g.viscous_force[0]);
+        same(f.viscous_torque_a[0], g.viscous_torque_a[0]);
+        same(f.viscous_torque_b[0], g.viscous_torque_b[0]);
+        for (int r = 0; r < 3; ++r) {
+            const double scale =
+                off * (norm(p.slots.dyad_a[0][0]) + norm(p.slots.dyad_a[0][1]) + norm(p.slots.dyad_a[0][2]));
+            CHECK(norm(s.slots.dyad_a[0][r] - p.slots.dyad_a[0][r]) <= scale);
+            CHECK(norm(s.slots.dyad_b[0][r] - p.slots.dyad_b[0][r]) <= scale);
+        }
+        CHECK(std::fabs(f.stored_energy[0] - g.stored_energy[0]) <= off * g.stored_energy[0]);
+        CHECK(std::fabs(f.viscous_work[0] - g.viscous_work[0]) <= off * g.viscous_work[0]);
+    }
+    CHECK(by_moments > 50);
+    CHECK(by_moments < 150);
+}
