@@ -19,6 +19,7 @@ struct ContactForces {
     int first_slot;
     View<const std::int32_t> a, b, law, bond_slot, bond_count;
     View<const ContactPoint> point;
+    View<const std::int32_t> found;
     View<std::int32_t> active;
     View<Vec3> shear_force, normal;
     View<double> twist_moment, max_overlap, offset_overlap, stiffness_scale, viscous_force, normal_force, stored_energy;
@@ -50,7 +51,7 @@ struct ContactForces {
             if (twist_stiffness[i] > 0.0)
                 friction_work[i] += 0.5 * twist_moment[i] * twist_moment[i] / twist_stiffness[i];
         }
-        active[i] = point[i].depth < 0.0 ? held_by_bonds : 0;
+        active[i] = found[i];
         shear_force[i] = Vec3{};
         twist_moment[i] = max_overlap[i] = offset_overlap[i] = viscous_force[i] = normal_force[i] = stored_energy[i] =
             shear_stiffness[i] = twist_stiffness[i] = 0.0;
@@ -79,11 +80,11 @@ struct ContactForces {
 
     GF_FN void operator()(int i) const
     {
-        const ContactPoint c = point[i];
-        if (c.overlap_energy <= 0.0) {
-            clear(i);
+        if (found[i] != 1) {
+            if (active[i] != found[i]) clear(i);  // otherwise there is nothing: its slot was cleared then
             return;
         }
+        const ContactPoint c = point[i];
         const Law l = laws[law[i]];
         ContactHistory h{shear_force[i],    normal[i],          twist_moment[i],    max_overlap[i],
                          offset_overlap[i], stiffness_scale[i], shear_stiffness[i], twist_stiffness[i]};
@@ -148,6 +149,7 @@ ContactForces<LinearContact> kernel(const Model& model, State& state, double dt,
             c.bond_slot.read(d),
             c.bond_count.read(d),
             c.point.read(d),
+            c.found.read(d),
             c.active.write(d),
             c.shear_force.write(d),
             c.normal.write(d),

@@ -9,6 +9,10 @@ namespace grainfrac {
 
 namespace {
 
+/// Two surfaces that come nearer by State::travel each close this much of what was between them, and a little is left
+/// for round-off and for spins that change within a step.
+constexpr double closing_share = 0.49;
+
 /// True while a bond of the pair still acts: bonds carry compression too, so the pair must not press twice.
 struct Suppression {
     View<const std::int32_t> bond_slot, bond_count, bond_acts;
@@ -30,20 +34,39 @@ struct FindContacts {
     View<const std::int32_t> shape;
     View<const std::int32_t> a, b;
     Suppression suppressed;
+    double travel;  // now; no pair is skipped if `thorough`
+    bool thorough;
     View<ContactPoint> point;
+    View<double> apart_until;
+    View<std::int32_t> found;
+    View<ClosestCorners> corners;
 
     GF_FN void operator()(int pair) const
     {
-        point[pair] = ContactPoint{};
-        const int i = a[pair], j = b[pair];
-        const double reach = shapes.bounding_radius[shape[i]] + shapes.bounding_radius[shape[j]];
+        if (!thorough && travel < apart_until[pair]) return;
         if (suppressed(pair)) {
-            point[pair].depth = held_by_bonds;
+            if (found[pair] == held_by_bonds) return;
+            point[pair] = ContactPoint{};
+            point[pair].depth = found[pair] = held_by_bonds;
+            apart_until[pair] = 0.0;
             return;
         }
-        if (norm2(position[j] - position[i]) >= reach * reach) return;
-        point[pair] = contact_manifold({shapes, shape[i], position[i], orientation[i]},
-                                       {shapes, shape[j], position[j], orientation[j]});
+        const int i = a[pair], j = b[pair];
+        const double centres2 = norm2(position[j] - position[i]);
+        const double reach = shapes.bounding_radius[shape[i]] + shapes.bounding_radius[shape[j]];
+        double clearance = 0.0;
+        ContactPoint c;
+        if (centres2 >= reach * reach) {
+            clearance = std::sqrt(centres2) - reach;
+        } else {
+            c = contact_manifold({shapes, shape[i], position[i], orientation[i]},
+                                 {shapes, shape[j], position[j], orientation[j]}, clearance, corners[pair]);
+        }
+        apart_until[pair] = clearance > 0.0 ? travel + closing_share * clearance : 0.0;
+        const int touch = c.overlap_energy > 0.0 ? 1 : 0;
+        if (touch == 0 && found[pair] == 0 && point[pair].depth == 0.0 && c.depth == 0.0) return;
+        found[pair] = touch;
+        point[pair] = c;
     }
 };
 
@@ -55,25 +78,41 @@ struct PenetrationTerm {
     }
 };
 
-FindContacts kernel(const Model& model, State& state, Device d)
+FindContacts kernel(const Model& model, State& state, bool thorough, Device d)
 {
     Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
     const Suppression suppressed{c.bond_slot.read(d), c.bond_count.read(d), state.slots.bond_acts.read(d)};
-    return {view(model.shapes, d), b.position.read(d), b.orientation.read(d), b.shape.read(d), c.a.read(d),
-            c.b.read(d),           suppressed,         c.point.write(d)};
+    return {view(model.shapes, d),
+            b.position.read(d),
+            b.orientation.read(d),
+            b.shape.read(d),
+            c.a.read(d),
+            c.b.read(d),
+            suppressed,
+            state.travel,
+            thorough,
+            c.point.write(d),
+            c.apart_until.write(d),
+            c.found.write(d),
+            c.corners.write(d)};
 }
 
 }  // namespace
 
 void find_contacts(const Model& model, State& state)
 {
-    parallel_for(model.device, state.contacts.size(), kernel(model, state, model.device));
+    parallel_for(model.device, state.contacts.size(), kernel(model, state, true, model.device));
+}
+
+void follow_contacts(const Model& model, State& state)
+{
+    parallel_for(model.device, state.contacts.size(), kernel(model, state, false, model.device));
 }
 
 void find_contacts(const Model& model, State& state, const std::vector<int>& pairs)
 {
-    serial_for(pairs, kernel(model, state, Device::cpu));
+    serial_for(pairs, kernel(model, state, true, Device::cpu));
 }
 
 int penetrating_pair(const Model& model, const State& state)

@@ -11,6 +11,8 @@ namespace grainfrac {
 
 /// Fill Contacts::point at the present positions; pairs whose bonds still act get none.
 void find_contacts(const Model& model, State& state);
+/// The same within a step: pairs that were too far apart to have met since, as State::travel tells, are not looked at.
+void follow_contacts(const Model& model, State& state);
 /// The same for some pairs, on the host.
 void find_contacts(const Model& model, State& state, const std::vector<int>& pairs);
 

@@ -83,6 +83,7 @@ bool pairs_are_stale(const Model& model, State& state, double dt)
 void find_pairs(const Model& model, State& state)
 {
     Contacts old = std::move(state.contacts);
+    const int old_slots = std::max(0, state.slots.size() - old.size());
     Contacts fresh;
     const Bodies& bodies = state.bodies;
     const std::vector<BondedPair> bonded = bonded_pairs(state);
@@ -102,6 +103,7 @@ void find_pairs(const Model& model, State& state)
     }
     const int n = fresh.size();
     fresh.point.resize(n);
+    fresh.apart_until.resize(n);
     fresh.for_each_history([&](const char*, auto& array) { array.resize(n); });
     for (double& s : fresh.stiffness_scale.host()) s = 1.0;
 
@@ -131,6 +133,18 @@ void find_pairs(const Model& model, State& state)
     });
     state.contacts = std::move(fresh);
     state.travel = 0.0;
+    std::vector<std::pair<int, int>> with_force;  // what is not in contact has nothing in its slot
+    for (const auto& [i, o] : kept) {
+        if (state.contacts.active[i] == 1) with_force.emplace_back(i, o);
+    }
+    for (Buffer<Vec3>* slots : {&state.slots.force, &state.slots.torque_a, &state.slots.torque_b}) {
+        const std::vector<Vec3> before(slots->host().begin() + old_slots, slots->host().end());
+        slots->host().resize(static_cast<std::size_t>(state.bond_slots()));
+        slots->resize(state.bond_slots() + n);
+        for (const auto& [i, o] : with_force) slots->at(state.bond_slots() + i) = before[static_cast<std::size_t>(o)];
+    }
+    state.slots.dyad_a.resize(0);  // of the interactions that were
+    state.slots.dyad_b.resize(0);
     build_incidence(state);
 }
 

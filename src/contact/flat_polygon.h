@@ -15,6 +15,20 @@ struct FlatPolygon {
     bool moving[room];  ///< the edge from vertex i to the next belongs to the moving face, not to a clip
     int count = 0;
 
+    GF_FN FlatPolygon() {}
+    GF_FN FlatPolygon(const FlatPolygon& p) { *this = p; }
+    /// What is in use only: the room is for the worst case.
+    GF_FN FlatPolygon& operator=(const FlatPolygon& p)
+    {
+        for (int i = 0; i < p.count; ++i) {
+            x[i] = p.x[i];
+            y[i] = p.y[i];
+            moving[i] = p.moving[i];
+        }
+        count = p.count;
+        return *this;
+    }
+
     GF_FN void add(double px, double py, bool edge_moves)
     {
         if (count < room) {
@@ -30,19 +44,23 @@ struct FlatPolygon {
 /// of the clip.
 GF_FN void clip(FlatPolygon& p, double c0, double cx, double cy, double tolerance = 0.0)
 {
+    double h[FlatPolygon::room];
+    bool cut = false;
+    for (int i = 0; i < p.count; ++i) {
+        h[i] = c0 + cx * p.x[i] + cy * p.y[i];
+        cut = cut || h[i] <= tolerance;
+    }
+    if (!cut) return;
     FlatPolygon kept;
-    double hi = p.count > 0 ? c0 + cx * p.x[0] + cy * p.y[0] : 0.0;
-    const double first = hi;
     for (int i = 0; i < p.count; ++i) {
         const int j = i + 1 < p.count ? i + 1 : 0;
-        const double hj = j > 0 ? c0 + cx * p.x[j] + cy * p.y[j] : first;
+        const double hi = h[i], hj = h[j];
         const bool on_line = std::fabs(hi) <= tolerance && std::fabs(hj) <= tolerance;
         if (hi >= 0.0) kept.add(p.x[i], p.y[i], p.moving[i] && !on_line && !(hi == 0.0 && hj < 0.0));
         if ((hi > 0.0 && hj < 0.0) || (hi < 0.0 && hj > 0.0)) {
             const double t = hi / (hi - hj);
             kept.add(p.x[i] + t * (p.x[j] - p.x[i]), p.y[i] + t * (p.y[j] - p.y[i]), hi < 0.0 && p.moving[i]);
         }
-        hi = hj;
     }
     p = kept;
 }

@@ -12,6 +12,8 @@ namespace {
 struct GatherForces {
     static constexpr const char* name = "gather forces";
     View<const std::int32_t> begin, entry;
+    int first_contact;
+    View<const std::int32_t> active;  // of contacts
     View<const Vec3> slot_force, slot_torque_a, slot_torque_b;
     View<const double> mass, inverse_mass;
     Vec3 gravity;
@@ -22,6 +24,7 @@ struct GatherForces {
         Vec3 f, t;
         for (int k = begin[body]; k < begin[body + 1]; ++k) {
             const int slot = entry[k] / 2;
+            if (slot >= first_contact && active[slot - first_contact] != 1) continue;  // most: nothing there
             if (entry[k] % 2 == 0) {
                 f -= slot_force[slot];
                 t += slot_torque_a[slot];
@@ -42,6 +45,8 @@ GatherForces kernel(const Model& model, State& state, Device d)
     const Slots& s = state.slots;
     return {state.incidence.begin.read(d),
             state.incidence.entry.read(d),
+            state.bond_slots(),
+            state.contacts.active.read(d),
             s.force.read(d),
             s.torque_a.read(d),
             s.torque_b.read(d),

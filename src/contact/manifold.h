@@ -109,10 +109,12 @@ GF_FN FlatPolygon outline(const ContactBody& body, int face, const Vec3& origin,
     const ShapesView& s = body.shapes;
     FlatPolygon p;
     const int begin = s.loop_begin[face], end = s.loop_begin[face + 1], first = s.vertex_begin[body.shape];
+    const Vec3 centre = body.position - origin;
+    const Vec3 d1 = rotate_back(body.orientation, e1), d2 = rotate_back(body.orientation, e2);
+    const double x = dot(centre, e1), y = dot(centre, e2);
     for (int k = begin; k < end; ++k) {
-        const int at = backwards ? end - 1 - (k - begin) : k;
-        const Vec3 v = body.position + rotate(body.orientation, s.vertices[first + s.loops[at]]) - origin;
-        p.add(dot(v, e1), dot(v, e2), backwards);
+        const Vec3& v = s.vertices[first + s.loops[backwards ? end - 1 - (k - begin) : k]];
+        p.add(x + dot(v, d1), y + dot(v, d2), backwards);
     }
     return p;
 }
@@ -135,13 +137,14 @@ GF_FN FaceOverlap face_overlap(const ContactBody& a, int face_a, const Plane& pa
     o.gx = -o.zx;
     o.gy = -o.zy;
     o.p = outline(b, face_b, about, o.e1, o.e2, true);
+    clip(o.p, o.g0, o.gx, o.gy);  // first: mostly little or nothing is left
+    if (o.p.count == 0) return o;
     const FlatPolygon window = outline(a, face_a, about, o.e1, o.e2, false);
     for (int i = 0; i < window.count && o.p.count > 0; ++i) {
         const int j = i + 1 < window.count ? i + 1 : 0;
         const double dx = window.x[j] - window.x[i], dy = window.y[j] - window.y[i];
         clip(o.p, dy * window.x[i] - dx * window.y[i], -dy, dx, same_edge * (dx * dx + dy * dy));
     }
-    clip(o.p, o.g0, o.gx, o.gy);
     return o;
 }
 
@@ -155,9 +158,10 @@ struct FacePair {
     double total = 0.0;                       // V_1 + V_2; 0: nothing in contact
     double weight = 0.0, weight_slope = 0.0;  // by the cosine of the tilt
 
-    GF_FN FacePair() {}
-    GF_FN FacePair(const ContactBody& a, int face_a, const ContactBody& b, int face_b, const Vec3& about)
+    /// Face of a on face of b; points from `about`.
+    GF_FN void find(const ContactBody& a, int face_a, const ContactBody& b, int face_b, const Vec3& about)
     {
+        total = 0.0;
         const Plane pa = plane_of(a, face_a), pb = plane_of(b, face_b);
         const double cosine = -dot(pa.normal, pb.normal);
         if (cosine <= turned_cosine) return;
@@ -166,11 +170,13 @@ struct FacePair {
         weight_slope = 6.0 * t * (1.0 - t) / (facing_cosine - turned_cosine);
         over[0] = face_overlap(a, face_a, pa, b, face_b, pb, about);
         part[0] = over[0].moments();
+        part[1] = OverlapMoments{};
         if (norm2(cross(pa.normal, pb.normal)) > same_plane) {
             over[1] = face_overlap(b, face_b, pb, a, face_a, pa, about);
             part[1] = over[1].moments();
         }
         total = part[0].V + part[1].V;
+        m = OverlapMoments{};
         for (int k = 0; k < 2 && total > 0.0; ++k) m.add(part[k], part[k].V / total);
     }
 
@@ -249,33 +255,37 @@ GF_FN LineOverlap line_overlap(const ContactBody& flat, int face, const ContactB
     return o;
 }
 
-/// Edge i of a beside edge j of b; empty if they are not in contact.
-GF_FN EdgeOverlap edge_overlap(const ContactBody& a, int i, const ContactBody& b, int j, const Vec3& about)
+/// An edge in space. Points from one origin near the contact.
+struct PlacedEdge {
+    Vec3 from, d;
+    double length;
+};
+
+/// Edge i of a beside edge j of b; weight 0 if they are not in contact.
+GF_FN EdgeOverlap edge_overlap(const PlacedEdge& i, const PlacedEdge& j, double radii)
 {
     EdgeOverlap o;
-    const auto ends = [&](const ContactBody& body, int edge, Vec3& from, Vec3& d) {
-        const Edge e = body.shapes.edges[edge];
-        const Vec3* v = body.shapes.vertices.data + body.shapes.vertex_begin[body.shape];
-        from = body.position + rotate(body.orientation, v[e.from]) - about;
-        const Vec3 along = rotate(body.orientation, v[e.to] - v[e.from]);
-        const double length = norm(along);
-        d = along * (1.0 / length);
-        return length;
-    };
-    const double length = ends(a, i, o.from, o.d), other_length = ends(b, j, o.other_from, o.other_d);
+    o.from = i.from;
+    o.d = i.d;
+    o.other_from = j.from;
+    o.other_d = j.d;
+    const double length = i.length, other_length = j.length;
     const double sine2 = norm2(cross(o.d, o.other_d));
     if (sine2 >= crossing_sine2) return o;
     const double x = std::fmax(0.0, (sine2 - parallel_sine2) / (crossing_sine2 - parallel_sine2));
     o.weight = 1.0 - x * x * (3.0 - 2.0 * x);
     o.weight_slope = -6.0 * x * (1.0 - x) / (crossing_sine2 - parallel_sine2);
-    o.radii = a.radius() + b.radius();
+    o.radii = radii;
 
     // squared distance to the other line: A s^2 + 2 B s + C, below radii^2 between the roots
     const Vec3 w = o.from - o.other_from;
     const double c = dot(o.d, o.other_d), h = dot(w, o.other_d);
     const double A = std::fmax(sine2, 1e-28), B = dot(w, o.d) - c * h, C = norm2(w) - h * h - o.radii * o.radii;
     const double inside = B * B - A * C;
-    if (inside <= 0.0) return o;
+    if (inside <= 0.0) {
+        o.weight = 0.0;
+        return o;
+    }
     const double q = -(B + (B >= 0.0 ? 1.0 : -1.0) * std::sqrt(inside));
     double low = q / A, high = q != 0.0 ? C / q : 0.0;
     if (low > high) {
@@ -305,21 +315,38 @@ GF_FN EdgeOverlap edge_overlap(const ContactBody& a, int i, const ContactBody& b
 
 /// Edges of a body that reach to within `depth` of its farthest point in `direction`: the other body is beyond, so no
 /// other edge can be in contact.
-struct FarthestEdges {
-    static constexpr int room = max_face_vertices;
-    int edge[room];  // into the shape table
+class FarthestEdges {
+public:
     int count = 0;
 
-    GF_FN FarthestEdges(const ContactBody& body, const Vec3& direction, const Vec3& farthest, double depth)
+    GF_FN FarthestEdges(const ContactBody& body, const Vec3& direction, const Vec3& farthest, double depth,
+                        const Vec3& about)
     {
         const Vec3 d = rotate_back(body.orientation, direction);
         const double least = dot(farthest - body.position, direction) - depth;
         const Vec3* v = body.shapes.vertices.data + body.shapes.vertex_begin[body.shape];
         for (int e = body.shapes.edge_begin[body.shape]; e < body.shapes.edge_begin[body.shape + 1]; ++e) {
             const Edge ends = body.shapes.edges[e];
-            if (std::fmax(dot(v[ends.from], d), dot(v[ends.to], d)) > least && count < room) edge[count++] = e;
+            const double h = dot(v[ends.from], d), k = dot(v[ends.to], d);
+            if ((h > k ? h : k) <= least || count == room) continue;
+            const Vec3 from = body.position + rotate(body.orientation, v[ends.from]) - about;
+            const Vec3 along = rotate(body.orientation, v[ends.to] - v[ends.from]);
+            const double length = norm(along), per_length = 1.0 / length;
+            double* to = numbers_[count++];
+            to[0] = from.x, to[1] = from.y, to[2] = from.z;
+            to[3] = along.x * per_length, to[4] = along.y * per_length, to[5] = along.z * per_length;
+            to[6] = length;
         }
     }
+    GF_FN PlacedEdge operator[](int i) const
+    {
+        const double* e = numbers_[i];
+        return {{e[0], e[1], e[2]}, {e[3], e[4], e[5]}, e[6]};
+    }
+
+private:
+    static constexpr int room = max_face_vertices;
+    double numbers_[room][7];  // not Vec3, which would be set to zero, though few are used
 };
 
 /// (1 - x)^2 below 1, and its slope.
@@ -381,12 +408,15 @@ struct Potential {
 }  // namespace manifold_detail
 
 /// Contact of two bodies; normal zero if they are apart. depth = the summed dilation radii marks penetrating cores.
-GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
+/// `clearance`: distance of the surfaces, 0 if they touch [m]. `corners`: of the last search, or none.
+GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, double& clearance,
+                                    ClosestCorners& corners)
 {
     using namespace manifold_detail;
     ContactPoint c;
     const double radii = a.radius() + b.radius();
-    const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position);
+    const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position, corners);
+    clearance = std::fmax(0.0, near.distance - radii);
     if (near.distance >= (1.0 - least_penetration) * radii) return c;
     if (near.distance <= core_contact_share * radii) {
         c.depth = radii;
@@ -403,22 +433,22 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
     const Vec3 middle = near.a + (0.5 * (near.distance + a.radius() - b.radius())) * n;
     const FacingFaces faces_a = facing(a, n, near.a, radii), faces_b = facing(b, -n, near.b, radii);
     const bool rod_a = has_one_edge(a), rod_b = has_one_edge(b);
-    const auto pair = [&](int k) {
-        return FacePair(a, faces_a.face[k / faces_b.count], b, faces_b.face[k % faces_b.count], middle);
+    const auto find = [&](int k, FacePair& o) {
+        o.find(a, faces_a.face[k / faces_b.count], b, faces_b.face[k % faces_b.count], middle);
     };
     const auto rod_on_face = [&](int k) {
         return rod_b ? line_overlap(a, faces_a.face[k], b, middle) : line_overlap(b, faces_b.face[k], a, middle);
     };
     const int pairs = faces_a.count * faces_b.count, rods = rod_a ? faces_b.count : rod_b ? faces_a.count : 0;
     OverlapMoments faces, lines;
-    FacePair last;  // mostly the only one
-    int found = 0;
+    FacePair first, other;  // the first that overlap are mostly the only ones
+    int overlapping[FacingFaces::room * FacingFaces::room], found = 0;
     for (int k = 0; k < pairs; ++k) {
-        const FacePair o = pair(k);
+        FacePair& o = found == 0 ? first : other;
+        find(k, o);
         if (o.total <= 0.0) continue;
         faces.add(o.m, o.weight);
-        last = o;
-        ++found;
+        overlapping[found++] = k;
     }
     const PressedArea pressed(faces, A_ref);
     if (pressed.rest > 0.0) {
@@ -426,18 +456,25 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
     }
     // no depth: no edge, where faces carry alone
     const double depth = pressed.rest > 0.0 ? 1.01 * g_p : -radii;
-    const FarthestEdges edges_a(a, n, near.a, depth), edges_b(b, -n, near.b, depth);
-    for (int k = 0; k < edges_a.count * edges_b.count; ++k) {
-        EdgeOverlap o = edge_overlap(a, edges_a.edge[k / edges_b.count], b, edges_b.edge[k % edges_b.count], middle);
-        if (o.weight > 0.0) lines.add(o.moments(), o.weight);
+    const FarthestEdges edges_a(a, n, near.a, depth, middle), edges_b(b, -n, near.b, depth, middle);
+    const auto edge_pair = [&](int k) {
+        return edge_overlap(edges_a[k / edges_b.count], edges_b[k % edges_b.count], radii);
+    };
+    constexpr int most_edge_pairs = 16;  // one or two are usual
+    int side_by_side[most_edge_pairs], beside = 0;
+    for (int k = 0; k < edges_a.count * edges_b.count && beside < most_edge_pairs; ++k) {
+        EdgeOverlap o = edge_pair(k);
+        if (o.weight <= 0.0) continue;
+        lines.add(o.moments(), o.weight);
+        side_by_side[beside++] = k;
     }
 
     const Potential p(faces, pressed, lines, A_ref, g_p);
     Wrench w;  // on b, about `middle`
-    if (found == 1) w.add(last.wrench(p.by_faces), 1.0);
-    for (int k = 0; found > 1 && k < pairs; ++k) {
-        const FacePair o = pair(k);
-        if (o.total > 0.0) w.add(o.wrench(p.by_faces), 1.0);
+    if (found > 0) w.add(first.wrench(p.by_faces), 1.0);
+    for (int k = 1; k < found; ++k) {
+        find(overlapping[k], other);
+        w.add(other.wrench(p.by_faces), 1.0);
     }
     if (lines.V > 0.0) {
         for (int k = 0; k < rods; ++k) {
@@ -445,10 +482,8 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
             o.moments();
             w.add(o.wrench(p.by_lines), rod_b ? 1.0 : -1.0);
         }
-        for (int k = 0; k < edges_a.count * edges_b.count; ++k) {
-            EdgeOverlap o =
-                edge_overlap(a, edges_a.edge[k / edges_b.count], b, edges_b.edge[k % edges_b.count], middle);
-            if (o.weight <= 0.0) continue;
+        for (int k = 0; k < beside; ++k) {
+            EdgeOverlap o = edge_pair(side_by_side[k]);
             const OverlapMoments m = o.moments();
             w.add(o.wrench(p.by_lines, m), 1.0);
         }
@@ -467,6 +502,13 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
     c.twist_radius = std::sqrt((1.0 - pressed.rest) * pressed.A / std::numbers::pi);
     c.depth = g_p;
     return c;
+}
+
+GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b)
+{
+    double clearance;
+    ClosestCorners unknown;
+    return contact_manifold(a, b, clearance, unknown);
 }
 
 }  // namespace grainfrac

@@ -94,12 +94,14 @@ struct FaceOverlap {
     double z0 = 0.0, zx = 0.0, zy = 0.0;  // height of the moving face over the plane
     double g0 = 0.0, gx = 0.0, gy = 0.0;  // penetration
     FlatPolygon p;
-    Vec3 centroid;  // of g, once the moments are taken
+    double cx = 0.0, cy = 0.0;  // centroid of g, once the moments are taken
 
     GF_FN double g(double x, double y) const { return g0 + gx * x + gy * y; }
     GF_FN Vec3 on_plane(double x, double y) const { return origin + x * e1 + y * e2; }
 
-    /// visit(g, point of the plane, x, y, weight) on points that integrate cubics over the polygon exactly.
+    GF_FN double spread(double x, double y) const { return (x - cx) * (x - cx) + (y - cy) * (y - cy); }
+
+    /// visit(g, x, y, weight) on points that integrate cubics over the polygon exactly.
     template <class Visit>
     GF_FN void integrate(Visit&& visit) const
     {
@@ -109,7 +111,7 @@ struct FaceOverlap {
             // Strang & Fix 1973: centroid -27/48, and 25/48 at (0.6, 0.2, 0.2)
             const auto at = [&](double s, double t, double w) {
                 const double x = p.x[0] + s * x1 + t * x2, y = p.y[0] + s * y1 + t * y2;
-                visit(g(x, y), on_plane(x, y), x, y, w * area);
+                visit(g(x, y), x, y, w * area);
             };
             at(1.0 / 3.0, 1.0 / 3.0, -27.0 / 48.0);
             at(0.2, 0.2, 25.0 / 48.0);
@@ -121,8 +123,12 @@ struct FaceOverlap {
     GF_FN OverlapMoments moments()
     {
         RawMoments m;
-        integrate([&](double gap, const Vec3& x, double, double, double w) { m.add(gap, x, w); });
-        return m.about_centroid(centroid);
+        integrate([&](double gap, double x, double y, double w) { m.add(gap, {x, y, 0.0}, w); });
+        Vec3 c;
+        const OverlapMoments result = m.about_centroid(c);
+        cx = c.x;
+        cy = c.y;
+        return result;
     }
 
     /// -dU on the moving body, about the origin of the points.
@@ -130,8 +136,8 @@ struct FaceOverlap {
     {
         Wrench w;
         double D0 = 0.0, Dx = 0.0, Dy = 0.0;
-        integrate([&](double gap, const Vec3& at, double x, double y, double area) {
-            const double D = area * U.by_gap(gap, norm2(at - centroid));
+        integrate([&](double gap, double x, double y, double area) {
+            const double D = area * U.by_gap(gap, spread(x, y));
             D0 += D;
             Dx += x * D;
             Dy += y * D;
@@ -147,9 +153,8 @@ struct FaceOverlap {
             const Vec3 m_ds = dy * e1 - dx * e2;          // outward normal times the length
             const auto at = [&](double t, double part) {  // Gauss, exact for quintics
                 const double x = p.x[i] + t * dx, y = p.y[i] + t * dy;
-                const Vec3 point = on_plane(x, y);
-                const double D1 = U.by_area(std::fmax(0.0, g(x, y)), norm2(point - centroid));
-                w.add(-part * D1 * m_ds, point + (z0 + zx * x + zy * y) * N);
+                const double D1 = U.by_area(std::fmax(0.0, g(x, y)), spread(x, y));
+                w.add(-part * D1 * m_ds, on_plane(x, y) + (z0 + zx * x + zy * y) * N);
             };
             constexpr double t = 0.112701665379258311;
             at(t, 5.0 / 18.0);

@@ -93,7 +93,6 @@ void make_bodies(Model& model, State& state, Parting& p, const CutResult& cut)
 struct OldSlots {
     std::vector<Vec3> force, torque_a, torque_b;
     int interfaces = 0, bonds = 0;
-    std::vector<std::pair<int, int>> contacts;  // pairs, sorted
 };
 
 OldSlots slots_now(const State& state)
@@ -105,11 +104,10 @@ OldSlots slots_now(const State& state)
     old.torque_b = s.torque_b.host();
     old.interfaces = state.interfaces.size();
     old.bonds = state.bond_slots();
-    for (int i = 0; i < state.contacts.size(); ++i) old.contacts.emplace_back(state.contacts.a[i], state.contacts.b[i]);
     return old;
 }
 
-/// Forces back into the slots of what was not touched; nothing in the others.
+/// Forces back into the slots of bonds that were not touched; nothing in the others. find_pairs did it for contacts.
 void restore_slots(State& state, const OldSlots& old, const std::vector<int>& interfaces,
                    const std::vector<int>& parallels)
 {
@@ -127,13 +125,6 @@ void restore_slots(State& state, const OldSlots& old, const std::vector<int>& in
     for (const int source : parallels) put(slot++, old.interfaces + source);
     const int first_sphere = old.interfaces + static_cast<int>(parallels.size());  // a split touches none of these
     for (int i = 0; i < state.sphere_bonds.size(); ++i) put(slot++, first_sphere + i);
-    std::size_t o = 0;
-    for (int i = 0; i < state.contacts.size(); ++i) {
-        const std::pair<int, int> pair{state.contacts.a[i], state.contacts.b[i]};
-        while (o < old.contacts.size() && old.contacts[o] < pair) ++o;
-        const bool known = o < old.contacts.size() && old.contacts[o] == pair;
-        put(slot++, known ? old.bonds + static_cast<int>(o) : -1);
-    }
 }
 
 /// What acts on the parts.

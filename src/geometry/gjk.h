@@ -5,6 +5,8 @@
 
 #include "geometry/quat.h"
 
+#include <cstdint>
+
 namespace grainfrac {
 
 /// Vertex set in its own frame, placed in space.
@@ -16,9 +18,9 @@ struct PlacedCore {
 
     GF_FN Vec3 at(int i) const { return position + rotate(orientation, vertices[i]); }
     /// Index of the vertex farthest along `direction` (world frame), the lowest of equals.
-    GF_FN int support(const Vec3& direction) const
+    GF_FN int support(const Vec3& direction) const { return support_in_body(rotate_back(orientation, direction)); }
+    GF_FN int support_in_body(const Vec3& d) const
     {
-        const Vec3 d = rotate_back(orientation, direction);
         int best = 0;
         double most = dot(vertices[0], d);
         for (int i = 1; i < count; ++i) {
@@ -32,6 +34,12 @@ struct PlacedCore {
     }
 };
 
+/// Which corners of two cores their closest points lie between, to begin with when the cores have hardly moved.
+struct ClosestCorners {
+    std::int16_t a[3] = {0, 0, 0}, b[3] = {0, 0, 0};  ///< into the vertices of each
+    std::int16_t count = 0;                           ///< 0: not known
+};
+
 struct ClosestPoints {
     double distance = 0.0;  ///< 0: the cores overlap [m]
     Vec3 a, b;              ///< the closest points [m]
@@ -42,6 +50,7 @@ namespace gjk_detail {
 struct Corner {
     Vec3 w, a, b;  // difference b - a and the two points it comes from
     double weight = 0.0;
+    int at_a = 0, at_b = 0;
 };
 
 struct Simplex {
@@ -163,22 +172,45 @@ GF_FN bool reduce(Simplex& s)
     return true;
 }
 
+/// A core with its rotation as a matrix.
+struct Placed {
+    const PlacedCore& core;
+    Mat3 rotation;
+
+    GF_FN explicit Placed(const PlacedCore& c) : core(c), rotation(to_matrix(c.orientation)) {}
+    GF_FN Vec3 at(int i) const { return core.position + rotation * core.vertices[i]; }
+    GF_FN int support(const Vec3& direction) const
+    {
+        if (core.count == 1) return 0;
+        return core.support_in_body(direction.x * rotation[0] + direction.y * rotation[1] + direction.z * rotation[2]);
+    }
+};
+
 }  // namespace gjk_detail
 
 /// @param guess direction from a to b to start with, any non-zero vector
-GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess)
+/// @param corners where the last search of this pair ended, or none; brought up to date
+GF_FN ClosestPoints closest_points(const PlacedCore& core_a, const PlacedCore& core_b, const Vec3& guess,
+                                   ClosestCorners& corners)
 {
     using gjk_detail::Corner;
     constexpr int most_rounds = 64;        // a dozen is usual; round-off can make the last rounds cycle
     constexpr double no_progress = 1e-14;  // relative decrease of the squared distance that counts as progress
+    const gjk_detail::Placed a(core_a), b(core_b);
     gjk_detail::Simplex s;
-    const auto corner = [&](const Vec3& direction) {
-        const Vec3 pa = a.at(a.support(direction)), pb = b.at(b.support(-direction));
-        return Corner{pb - pa, pa, pb, 1.0};
+    const auto between = [&](int i, int j) {
+        const Vec3 pa = a.at(i), pb = b.at(j);
+        return Corner{pb - pa, pa, pb, 1.0, i, j};
     };
-    s.corner[0] = corner(guess);
-    s.count = 1;
-    Vec3 v = s.corner[0].w;
+    const auto corner = [&](const Vec3& direction) { return between(a.support(direction), b.support(-direction)); };
+    for (int i = 0; i < corners.count; ++i) {
+        if (corners.a[i] < core_a.count && corners.b[i] < core_b.count)
+            s.corner[s.count++] = between(corners.a[i], corners.b[i]);
+    }
+    corners.count = 0;
+    if (s.count == 0) s.corner[s.count++] = corner(guess);
+    gjk_detail::reduce(s);
+    Vec3 v = s.closest();
     for (int round = 0; round < most_rounds; ++round) {
         const double v2 = norm2(v);
         if (v2 == 0.0) return {};
@@ -199,11 +231,21 @@ GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, con
     }
     ClosestPoints r;
     for (int i = 0; i < s.count; ++i) {
-        r.a += s.corner[i].weight * s.corner[i].a;
-        r.b += s.corner[i].weight * s.corner[i].b;
+        const Corner& c = s.corner[i];
+        r.a += c.weight * c.a;
+        r.b += c.weight * c.b;
+        corners.a[i] = static_cast<std::int16_t>(c.at_a);
+        corners.b[i] = static_cast<std::int16_t>(c.at_b);
     }
+    corners.count = static_cast<std::int16_t>(s.count);
     r.distance = norm(r.b - r.a);
     return r;
+}
+
+GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess)
+{
+    ClosestCorners unknown;
+    return closest_points(a, b, guess, unknown);
 }
 
 }  // namespace grainfrac

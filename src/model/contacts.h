@@ -2,7 +2,7 @@
 // Candidate pairs of the neighbour list and what a contact remembers. Sorted by (a, b), a < b.
 #pragma once
 
-#include "geometry/vec3.h"
+#include "geometry/gjk.h"
 #include "gpu/buffer.h"
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct ContactPoint {
     double depth = 0.0;           ///< largest penetration; or held_by_bonds [m]
 };
 
-/// ContactPoint::depth, and Contacts::active, of a pair whose bonds still act: it has no contact of its own.
+/// ContactPoint::depth, Contacts::found and Contacts::active, of a pair whose bonds still act: it has no contact of its
+/// own.
 inline constexpr int held_by_bonds = -1;
 
 struct Contacts {
@@ -32,6 +33,9 @@ struct Contacts {
         bond_slot;  ///< first slot of the bonds between a and b; they suppress the contact till retired
     Buffer<std::int32_t> bond_count;  ///< how many
     Buffer<ContactPoint> point;       ///< derived
+    Buffer<double> apart_until;       ///< State::travel up to which the two cannot meet; 0: to be looked at [m]
+    Buffer<ClosestCorners> corners;   ///< where the search for the closest points of the cores begins
+    Buffer<std::int32_t> found;       ///< derived: 1 if they touch, 0 if apart, or held_by_bonds
     // state
     Buffer<std::int32_t> active;     ///< 1 while in contact, 0 while apart, or held_by_bonds
     Buffer<Vec3> shear_force;        ///< F_t on a, world frame [N]
@@ -61,12 +65,15 @@ struct Contacts {
         visit("bond_slot", bond_slot);
         visit("bond_count", bond_count);
         visit("point", point);
+        visit("apart_until", apart_until);
         for_each_history(visit);
     }
     /// What travels with a pair when the neighbour list is made anew.
     template <class Visit>
     void for_each_history(Visit&& visit)
     {
+        visit("corners", corners);
+        visit("found", found);
         visit("active", active);
         visit("shear_force", shear_force);
         visit("normal", normal);

@@ -37,7 +37,7 @@ void step(const Model& model, State& state, double dt, bool want_stress)
     ++state.step;
     if (pairs_are_stale(model, state, dt)) find_pairs(model, state);
     make_room_for_stress(state, want_stress);
-    find_contacts(model, state);  // geometry only: overlap, normal, point
+    follow_contacts(model, state);  // geometry only: overlap, normal, point
     contact_forces(model, state, dt);
     fibre_pressures(model, state);
     bond_forces(model, state, dt);  // interfaces and parallel bonds; marks what breaks

@@ -301,6 +301,42 @@ TEST_CASE("neighbour list equals all pairs of boxes")
     CHECK(static_cast<int>(found.size()) == expected);
 }
 
+TEST_CASE("pairs that are not looked at in a step have not met")
+{
+    std::vector<GrainSpec> grains;
+    int draw = 0;
+    for (int k = 0; k < 64; ++k) {
+        const Vec3 site{1.35 * (k % 4), 1.35 * (k / 4 % 4), 1.35 * (k / 16)};
+        grains.push_back(grain(translated(make_box({1, 0.9, 0.8}), site), site));
+    }
+    Assembly a = assemble(grains);
+    a.model.contact_laws.host() = {{1e3, 0.4, 0.3, 1.0, 0.0}};
+    a.model.skin = 0.2;
+    for (int i = 0; i < 64; ++i) {
+        a.state.bodies.velocity.at(i) = random_vector(draw) - 0.3 * a.state.bodies.position[i];
+        set_spin(a.state.bodies, i, 2.0 * random_vector(draw));
+    }
+    start(a.model, a.state);
+    int touching = 0, rebuilt = 0, skipped = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const double travel = a.state.travel;
+        step(a.model, a.state, 1e-3);
+        if (a.state.travel < travel) ++rebuilt;
+        State all = a.state;
+        find_contacts(a.model, all);
+        for (int k = 0; k < all.contacts.size(); ++k) {
+            CHECK(a.state.contacts.found[k] == all.contacts.found[k]);
+            CHECK(a.state.contacts.point[k].overlap_energy ==
+                  Approx(all.contacts.point[k].overlap_energy).epsilon(1e-9));
+            touching += all.contacts.found[k];
+            if (a.state.contacts.apart_until[k] > a.state.travel) ++skipped;
+        }
+    }
+    CHECK(touching > 1000);
+    CHECK(rebuilt > 3);
+    CHECK(skipped > 1000);
+}
+
 TEST_CASE("binary collisions: e = 1/sqrt(C), and the viscous law gives the restitution it is asked for")
 {
     for (const double C : {1.0, 2.0, 10.0}) {

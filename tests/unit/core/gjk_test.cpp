@@ -132,6 +132,28 @@ TEST_CASE("closest points do not depend on the first guess, prisms beside a plat
     }
 }
 
+TEST_CASE("closest points do not depend on where the last search ended")
+{
+    int draw = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const Polyhedron a = make_hexagonal_prism(1.0, 3.0);
+        const Quat q = from_axis_angle(normalized(random_vector(draw)), 3.0 * random_vector(draw).x);
+        const Polyhedron b = translated(rotated(make_box({1.4, 0.7, 6.0}), q), 4.0 * normalized(random_vector(draw)));
+        if (!clip(a, b).faces.empty()) continue;
+        const PlacedCore x{a.vertices.data(), 12, {}, {}}, y{b.vertices.data(), 8, {}, {}};
+        ClosestCorners corners;  // any, also one that there is not
+        corners.count = static_cast<std::int16_t>(draw % 4);
+        for (int i = 0; i < corners.count; ++i) {
+            corners.a[i] = static_cast<std::int16_t>(12.9 * std::fabs(random_vector(draw).x));
+            corners.b[i] = static_cast<std::int16_t>(8.9 * std::fabs(random_vector(draw).x));
+        }
+        const double expected = closest_points(x, y, {1, 0, 0}).distance;
+        CHECK(closest_points(x, y, {1, 0, 0}, corners).distance == Approx(expected).epsilon(1e-12));
+        CHECK(corners.count > 0);
+        CHECK(closest_points(x, y, {1, 0, 0}, corners).distance == Approx(expected).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("overlapping cores are reported as distance zero")
 {
     CHECK(by_gjk(make_box({1, 1, 1}), make_box({1, 1, 1}, {0.3, 0.2, 0.1})) == 0.0);

@@ -169,7 +169,7 @@ double largest_error(const PlaneCut& cut, const TractionField& field, const Stre
 
 namespace {
 
-/// One free grain of an assembly with forces on it, entered as slots of a second body far away.
+/// One free grain of an assembly with forces on it, entered as contacts with a second body far away.
 struct StressedGrain {
     Assembly a;
     MassProperties mass;
@@ -186,6 +186,8 @@ struct StressedGrain {
         const Vec3 d = x - s.bodies.position[0];
         const int slot = s.slots.size();
         s.slots.resize(slot + 1);
+        s.contacts.for_each_array([&](const char*, auto& array) { array.resize(slot + 1); });
+        s.contacts.active.at(slot) = 1;
         s.slots.force.host()[static_cast<std::size_t>(slot)] = -1.0 * f;  // on b; the grain is a
         s.slots.torque_a.host()[static_cast<std::size_t>(slot)] = cross(d, f);
         s.slots.dyad_a.host().push_back(Mat3::outer(d, f));
