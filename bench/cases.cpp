@@ -47,7 +47,7 @@ std::vector<std::string> size_of(Kind kind, int bodies)
         const double d = std::cbrt(bodies / (0.25 * 3.14159265358979 * std::sqrt(2.0)));
         return {fmt::format("parts[0].region.diameter={}", d), fmt::format("parts[0].region.height={}", d)};
     }
-    const double edge = 1e-3 * std::cbrt(bodies * 3.14159265358979 / 6.0 * 1.02 / 0.58);
+    const double edge = 1e-3 * std::cbrt(bodies * 3.14159265358979 / 6.0 * 1.02 / 0.5);
     return {fmt::format("parts[0].region.size=[{0}, {0}, {0}]", edge)};
 }
 

@@ -40,6 +40,7 @@ struct ContactBody {
     Quat orientation;
 
     GF_FN double radius() const { return shapes.radius[shape]; }
+    GF_FN bool is_ball() const { return shapes.vertex_begin[shape + 1] - shapes.vertex_begin[shape] == 1; }
     GF_FN PlacedCore core() const
     {
         const int first = shapes.vertex_begin[shape];
@@ -349,6 +350,40 @@ private:
     double numbers_[room][7];  // not Vec3, which would be set to zero, though few are used
 };
 
+/// A_ref: of the body with the smaller corners [m^2].
+GF_FN double reference_area(const ContactBody& a, const ContactBody& b)
+{
+    const double area_a = a.shapes.point_area[a.shape], area_b = b.shapes.point_area[b.shape];
+    if (area_a > 0.0 && area_b > 0.0) return area_a < area_b ? area_a : area_b;
+    if (area_a + area_b > 0.0) return area_a + area_b;
+    // two round bodies: the circle of their harmonic mean radius
+    const double r = a.radius() * b.radius() / (a.radius() + b.radius());
+    return std::numbers::pi * r * r;
+}
+
+/// Of two balls.
+GF_FN ClosestPoints ball_points(const ContactBody& a, const ContactBody& b)
+{
+    ClosestPoints r;
+    r.a = a.core().at(0);
+    r.b = b.core().at(0);
+    r.distance = norm(r.b - r.a);
+    return r;
+}
+
+/// A ball has neither faces nor edges: U = A_ref g_p^2/2, whatever the other body is.
+GF_FN ContactPoint ball_contact(const ContactBody& a, const ContactBody& b, const ClosestPoints& near)
+{
+    ContactPoint c;
+    c.depth = a.radius() + b.radius() - near.distance;
+    c.area = reference_area(a, b);
+    c.normal = (near.b - near.a) * (1.0 / near.distance);
+    c.position = near.a + (0.5 * (near.distance + a.radius() - b.radius())) * c.normal;
+    c.overlap_force = c.area * c.depth;
+    c.overlap_energy = 0.5 * c.overlap_force * c.depth;
+    return c;
+}
+
 /// (1 - x)^2 below 1, and its slope.
 GF_FN double fade(double x, double& slope)
 {
@@ -415,20 +450,18 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
     using namespace manifold_detail;
     ContactPoint c;
     const double radii = a.radius() + b.radius();
-    const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position, corners);
+    const bool ball_a = a.is_ball(), ball_b = b.is_ball();
+    const ClosestPoints near =
+        ball_a && ball_b ? ball_points(a, b) : closest_points(a.core(), b.core(), b.position - a.position, corners);
     clearance = std::fmax(0.0, near.distance - radii);
     if (near.distance >= (1.0 - least_penetration) * radii) return c;
     if (near.distance <= core_contact_share * radii) {
         c.depth = radii;
         return c;
     }
+    if (ball_a || ball_b) return ball_contact(a, b, near);
     const Vec3 n = (near.b - near.a) * (1.0 / near.distance);
-    const double area_a = a.shapes.point_area[a.shape], area_b = b.shapes.point_area[b.shape];
-    double A_ref = area_a > 0.0 && area_b > 0.0 ? std::fmin(area_a, area_b) : std::fmax(area_a, area_b);
-    if (A_ref == 0.0) {  // two round bodies: the circle of their harmonic mean radius
-        const double r = a.radius() * b.radius() / radii;
-        A_ref = std::numbers::pi * r * r;
-    }
+    const double A_ref = reference_area(a, b);
     const double g_p = radii - near.distance;
     const Vec3 middle = near.a + (0.5 * (near.distance + a.radius() - b.radius())) * n;
     const FacingFaces faces_a = facing(a, n, near.a, radii), faces_b = facing(b, -n, near.b, radii);
