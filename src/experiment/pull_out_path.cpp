@@ -31,14 +31,16 @@ constexpr int bisections = 60;
 constexpr double same_pull = 1e-4;
 constexpr int most_draws = 30;
 
-/// Overshoot of the event that does `wanted` more mean damage, or breaks what is left.
-double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double wanted)
+/// How far beyond the failure surface, at `surface` times the present jumps, the event goes that brings the mean damage
+/// to `wanted`, or breaks what is left.
+double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double surface,
+                 double wanted)
 {
     double low = 0.0, high = 1.0;
-    while (mean_damage_at(model, state, interfaces, 1.0 + high) < wanted && high < 1e6) high *= 2.0;
+    while (mean_damage_at(model, state, interfaces, surface * (1.0 + high)) < wanted && high < 1e6) high *= 2.0;
     for (int k = 0; k < bisections; ++k) {
         const double middle = 0.5 * (low + high);
-        (mean_damage_at(model, state, interfaces, 1.0 + middle) < wanted ? low : high) = middle;
+        (mean_damage_at(model, state, interfaces, surface * (1.0 + middle)) < wanted ? low : high) = middle;
     }
     return high;
 }
@@ -271,17 +273,37 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         const bool broken = mean_damage(state, interfaces) >= all_broken;
         return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
     }
-    const double wanted = now + std::min(settings_.damage_step, last_steps * left);
     if (factor_to_softening(model, state, interfaces) == 0.0) return Found::end;  // nothing can soften
-    const double reach = 1.0 + overshoot(model, state, interfaces, wanted);
-    const double half = rubs(model, state, interfaces) ? 1.0 : std::sqrt(reach);  // on and back would turn friction
-    if (half > 1.0) {
-        scale(state, half);  // at rest still, but for what turned
-        book_scaling(state, half);
+    if (rubs(model, state, interfaces)) {                                         // on and back would turn friction
+        soften(model, state, interfaces, 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now)));
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
+        return counted(to_softening(model, state, interrupted));
     }
-    soften(model, state, interfaces, reach / half);
+    const double surface = factor_to_softening(model, state, interfaces);
+    const double half = std::sqrt(1.0 + overshoot(model, state, interfaces, surface, next_damage(now)));
+    scale(state, surface * half);  // at rest still, but for what turned
+    book_scaling(state, surface * half);
+    soften(model, state, interfaces, half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;
-    return counted(to_softening(model, state, interrupted));
+    const Found found = to_softening(model, state, interrupted);
+    return counted(found == Found::equilibrium ? balance(model, state, interfaces, interrupted) : found);
+}
+
+double PullOutPath::next_damage(double now) const
+{
+    return now + std::min(settings_.damage_step, last_steps * (1.0 - now));
+}
+
+/// With the first point at its strength the others of the softening zone are a little below theirs, since damage comes
+/// by steps. The state that stands for this damage is that at which the next of it releases what it takes.
+PullOutPath::Found PullOutPath::balance(Model& model, State& state, const std::vector<int>& interfaces,
+                                        const std::function<bool()>& interrupted)
+{
+    const double now = mean_damage(state, interfaces);
+    if (rubs(model, state, interfaces) || 1.0 - now < nothing_left) return Found::equilibrium;
+    const double reach = 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now));
+    scale(state, factor_to_balance(model, state, interfaces, reach));
+    return relax(model, state, interrupted) ? Found::equilibrium : Found::not_at_rest;
 }
 
 }  // namespace grainfrac

@@ -54,6 +54,9 @@ private:
     Found to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
     Found creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
                              const std::function<bool()>& interrupted);
+    Found balance(Model& model, State& state, const std::vector<int>& interfaces,
+                  const std::function<bool()>& interrupted);
+    double next_damage(double now) const;
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);

@@ -206,9 +206,19 @@ TEST_CASE("pull-out: the path turns back and ends at the failure slip without st
 {
     Run run(pull_out_case(15.0));
     run.follow(by_damage(0.02), [](const PullOutState&) { return false; });
-    // shear-lag at L = 15: 18.2285 MPa, 4.4355 mm; elasticity is 4.5 % above in stress, 2.1 % below in slip (L = 30)
-    CHECK(1e-6 * run.largest(&PullOutState::end_stress) == Approx(18.2285 * 1.045).epsilon(0.03));
-    CHECK(1e3 * run.largest(&PullOutState::exit_slip) == Approx(4.4355 * 0.979).epsilon(0.03));
+    // axisymmetric elasticity at the same length (tests/data/fibre/elastic_lengths.csv)
+    const double length = run.pull_out().length;
+    REQUIRE(length == Approx(14.6969).epsilon(1e-5));
+    CHECK(1e-6 * run.largest(&PullOutState::end_stress) == Approx(18.7927).epsilon(0.01));
+    CHECK(1e3 * run.largest(&PullOutState::exit_slip) == Approx(4.33237).epsilon(0.015));
+    CHECK(1e3 * run.largest(&PullOutState::end_displacement) == Approx(4.61249).epsilon(0.015));
+    // whatever the elasticity the closed path takes what breaks the interface, 2 G_c L/a: of second order in damage_step
+    double work = 0.0;
+    for (std::size_t k = 1; k < run.path.size(); ++k) {
+        work += 0.5 * (run.path[k].end_stress + run.path[k - 1].end_stress) *
+                (run.path[k].end_displacement - run.path[k - 1].end_displacement);
+    }
+    CHECK(work == Approx(2.0 * 1500.0 * length).epsilon(2e-3));
     const PullOutState& last = run.path.back();
     CHECK(last.end_stress < 0.02 * run.largest(&PullOutState::end_stress));
     CHECK(last.exit_slip == Approx(3e-3).epsilon(0.05));
@@ -227,7 +237,7 @@ TEST_CASE("pull-out: the path turns back and ends at the failure slip without st
     for (const int i : fibre_interfaces(run.pull_out(), run.built.state)) area += run.built.state.interfaces.area[i];
     CHECK(area == Approx(2.0 * std::numbers::pi * run.pull_out().length).epsilon(1e-9));
     CHECK(e.fracture == Approx(1500.0 * area).epsilon(5e-3));
-    CHECK(e.relative_error() < 5e-3);
+    CHECK(e.relative_error() < 1e-3);
 }
 
 TEST_CASE("pull-out: a broken interface slides under its residual shear and under pressure", "[pull_out]")
