@@ -217,6 +217,22 @@ PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, c
     return Found::not_softening;
 }
 
+/// All displacements by a factor, and the damage that they cause half-way: what it releases is then, to second order,
+/// what the law takes. The rest of the damage comes while the model comes to rest.
+void PullOutPath::go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor)
+{
+    const double half = std::sqrt(factor);
+    const auto move = [&] {
+        const Ledger before = energy_ledger(model, state);
+        scale(state, half);
+        book_move(model, state, before);
+    };
+    move();
+    soften(model, state, interfaces, half);
+    step_in_place(model, state);
+    move();
+}
+
 /// All of it slides: moved as one the fibre stretches back against the friction, which must not mind.
 bool PullOutPath::draw(Model& model, State& state, const std::vector<int>& interfaces,
                        const std::function<bool()>& interrupted)
@@ -252,10 +268,11 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     }
     if (!settings_.by_damage) {
         const double now = pull_out_state(pull_out_, state).end_displacement;
-        if (started_ && now > 0.0)
-            scale(state, 1.0 + settings_.shift / now);
-        else
+        if (started_ && now > 0.0) {
+            go_on(model, state, interfaces, 1.0 + settings_.shift / now);
+        } else {
             shift_fibre(model, state, settings_.shift);
+        }
         started_ = true;
         return rested(relax(model, state, interrupted));
     }

@@ -57,6 +57,7 @@ private:
     Found balance(Model& model, State& state, const std::vector<int>& interfaces,
                   const std::function<bool()>& interrupted);
     double next_damage(double now) const;
+    void go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor);
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);

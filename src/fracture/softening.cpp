@@ -125,6 +125,7 @@ void soften(const Model& model, State& state, const std::vector<int>& interfaces
 {
     InterfaceBonds& f = state.interfaces;
     for (const int i : interfaces) {
+        if (!softens(model, f, i)) continue;
         const double k_n = f.normal_stiffness[i], k_s = f.shear_stiffness[i];
         double work = 0.0, released = 0.0, sheared = 0.0;
         bool started = false;

@@ -212,7 +212,8 @@ TEST_CASE("pull-out: the path turns back and ends at the failure slip without st
     CHECK(1e-6 * run.largest(&PullOutState::end_stress) == Approx(18.7927).epsilon(0.01));
     CHECK(1e3 * run.largest(&PullOutState::exit_slip) == Approx(4.33237).epsilon(0.015));
     CHECK(1e3 * run.largest(&PullOutState::end_displacement) == Approx(4.61249).epsilon(0.015));
-    // whatever the elasticity the closed path takes what breaks the interface, 2 G_c L/a: of second order in damage_step
+    // whatever the elasticity the closed path takes what breaks the interface, 2 G_c L/a: of second order in
+    // damage_step
     double work = 0.0;
     for (std::size_t k = 1; k < run.path.size(); ++k) {
         work += 0.5 * (run.path[k].end_stress + run.path[k - 1].end_stress) *
