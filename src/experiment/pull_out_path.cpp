@@ -112,7 +112,24 @@ void PullOutPath::shift_fibre(Model& model, State& state, double by)
     for (int i = 0; i < b.size(); ++i) {
         if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
     }
+    shorten(state);
     book_move(model, state, before);
+}
+
+/// A patch leaves the friction at once, when the fibre's end has slid to its middle. The next one stands for what is
+/// left of it, and then for less of its own: what rubs gets shorter with the slip, not by pieces.
+void PullOutPath::shorten(State& state)
+{
+    const InterfaceBonds& f = state.interfaces;
+    for (const int i : fibre_interfaces(pull_out_, state)) {
+        if (f.retired[i] != 0 || f.damage[i] < 1.0) continue;
+        const double left = f.slip_limit[i] - slip_of(pull_out_, state, i, fibre_side(pull_out_, state, i));
+        const double share = left < pull_out_.piece ? std::max(0.0, 0.5 + left / pull_out_.piece) : 1.0;
+        double weight = 0.0;
+        for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) weight += state.points.weight[q];
+        for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q)
+            state.points.weight.at(q) *= share * f.area[i] / weight;
+    }
 }
 
 /// Of a move that the grip alone did not make: what springs take up at once and friction loses is its work.

@@ -61,6 +61,7 @@ private:
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
+    void shorten(State& state);
     void book_move(Model& model, State& state, const Ledger& before);
     void remember_grip(const State& state);
     void book_scaling(State& state, double factor);
