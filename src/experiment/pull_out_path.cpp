@@ -24,6 +24,10 @@ constexpr double most_move = 0.1;  ///< over what is there
 constexpr int most_moves = 100;
 /// Towards the end events take this share of what is left, until this little is left.
 constexpr double last_steps = 0.3, nothing_left = 2e-3;
+/// Once this little is left, some patches may be gone around the fibre and others not, so that it can turn freely: what
+/// does not soon come to rest is broken.
+constexpr double little_left = 0.02;
+constexpr int steps_for_little = 20000;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
 constexpr int bisections = 60;
@@ -299,28 +303,39 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
         return counted(to_softening(model, state, interrupted));
     }
-    // half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes
-    const double now = mean_damage(state, interfaces), left = 1.0 - now;
-    if (left < nothing_left) {
-        soften(model, state, interfaces, 1e9);
-        step_in_place(model, state);
-        const bool broken = mean_damage(state, interfaces) >= all_broken;
-        return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
+    const double left = 1.0 - mean_damage(state, interfaces);
+    if (left >= nothing_left) {
+        const RelaxSettings patient = settings_.relax;
+        if (left < little_left) settings_.relax.most_steps = std::min(patient.most_steps, steps_for_little);
+        const Found found = next_event(model, state, interfaces, interrupted);
+        settings_.relax = patient;
+        const bool lost = found == Found::not_at_rest || found == Found::not_softening;
+        if (!lost || left >= little_left || (interrupted && interrupted())) return counted(found);
     }
-    if (factor_to_softening(model, state, interfaces) == 0.0) return Found::end;  // nothing can soften
-    if (rubs(model, state, interfaces)) {                                         // on and back would turn friction
+    soften(model, state, interfaces, 1e9);
+    step_in_place(model, state);
+    const bool broken = mean_damage(state, interfaces) >= all_broken;
+    return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
+}
+
+/// Half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes.
+PullOutPath::Found PullOutPath::next_event(Model& model, State& state, const std::vector<int>& interfaces,
+                                           const std::function<bool()>& interrupted)
+{
+    const double now = mean_damage(state, interfaces), surface = factor_to_softening(model, state, interfaces);
+    if (surface == 0.0) return Found::end;  // nothing can soften
+    if (rubs(model, state, interfaces)) {   // on and back would turn friction
         soften(model, state, interfaces, 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now)));
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
-        return counted(to_softening(model, state, interrupted));
+        return to_softening(model, state, interrupted);
     }
-    const double surface = factor_to_softening(model, state, interfaces);
     const double half = std::sqrt(1.0 + overshoot(model, state, interfaces, surface, next_damage(now)));
     scale(state, surface * half);  // at rest still, but for what turned
     book_scaling(state, surface * half);
     soften(model, state, interfaces, half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;
     const Found found = to_softening(model, state, interrupted);
-    return counted(found == Found::equilibrium ? balance(model, state, interfaces, interrupted) : found);
+    return found == Found::equilibrium ? balance(model, state, interfaces, interrupted) : found;
 }
 
 double PullOutPath::next_damage(double now) const

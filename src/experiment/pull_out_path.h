@@ -54,6 +54,8 @@ private:
     Found to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
     Found creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
                              const std::function<bool()>& interrupted);
+    Found next_event(Model& model, State& state, const std::vector<int>& interfaces,
+                     const std::function<bool()>& interrupted);
     Found balance(Model& model, State& state, const std::vector<int>& interfaces,
                   const std::function<bool()>& interrupted);
     double next_damage(double now) const;
