@@ -6,8 +6,8 @@
 
 elastic: shear of the interface and stress of the fibre before it yields, for each stiffness ratio, length, interface and
 sphere size; root mean square difference over the range of the reference, at equal load. path: the whole path with spheres
-of 0.5 m. lengths: peak and largest slip of fibres of 5 to 50 m with spheres of 1 m. speed: peak at four speeds of the
-grip. Tables go to standard output and to the folder.
+of 1 and 0.5 m. lengths: the whole path of fibres of 5 to 50 m with spheres of 1 m. speed: peak at four speeds of the grip.
+With --keep what a folder has is not run again. Tables go to standard output and to the folder.
 """
 import argparse, bisect, csv, json, math, pathlib, subprocess, sys, time
 
@@ -28,7 +28,11 @@ ELASTIC = {
 REFERENCE = {"1:10": "1:10 d=0.5", "d=0.7": "1:10 d=0.7", "d=1": "1:10 d=1"}  # names in elastic_cases.csv
 LENGTHS = (5, 8, 9, 10, 11, 12, 15, 20, 25, 30, 35, 40, 50)
 INTERFACE = "shear stiffness of the interface"
-WHOLE_PATHS = 15  # longer fibres: to the peak
+PATH_SPHERES = (1.0, 0.5)
+TURNS = (("peak_stress_Pa", 1e6), ("largest_exit_slip_m", 1e-3), ("stress_at_largest_slip_Pa", 1e6),
+         ("largest_end_displacement_m", 1e-3), ("stress_at_largest_displacement_Pa", 1e6))
+EXACT_TURNS = ("max_stress_Pa", "max_slip_m", "stress_at_max_slip_Pa", "max_displacement_m",
+               "stress_at_max_displacement_Pa")
 SPEEDS = (1.0, 0.1, 0.01, 0.001)
 
 
@@ -71,7 +75,8 @@ def run(args, name, settings):
     for key, value in settings.items():
         command += ["--set", f"{key}={json.dumps(value)}"]
     start = time.time()
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    if not (args.keep and (out / "summary.json").exists()):
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return out, time.time() - start
 
 
@@ -122,28 +127,43 @@ def elastic(args, say):
 
 
 def path(args, say):
-    settings = settings_of(5e9, 30, K0, 0.5)
-    settings.update({"test.stop.time": 100000, "test.damage_step": 0.01})
-    out, seconds = run(args, "path", settings)
-    test = json.loads((out / "summary.json").read_text())["test"]
-    L = test["embedded_length_m"]
-    rows = [[float(r[c]) for c in ("end_slip_m", "end_stress_Pa", "end_displacement_m", "mean_damage")]
-            for r in table(out / "pull_out.csv")]
-    say(f"path, d = 0.5 m, L = {L:.4f} m, {len(rows)} states, {seconds:.0f} s\n")
-    say("| | run | axisymmetric elasticity, L = 30 m |\n|---|---|---|")
-    for key, unit, exact in (("peak_stress_Pa", 1e6, 20.457), ("exit_slip_at_peak_m", 1e-3, 2.52),
-                             ("largest_exit_slip_m", 1e-3, 8.796), ("stress_at_largest_slip_Pa", 1e6, 16.03),
-                             ("largest_end_displacement_m", 1e-3, 9.326),
-                             ("stress_at_largest_displacement_Pa", 1e6, 16.73)):
-        say(f"| {key} | {test[key] / unit:.4g} | {exact} |")
-    say(f"| work_J_per_m2 | {test['work_J_per_m2']:.6g} | {2 * 0.5 * K0 * YIELD * FAILURE * L / A:.6g} |")
-    exact = [[float(r[c]) for c in r] for r in table(DATA / "elastic_path.csv")]
-    far = 0.0  # largest distance of a state from the reference, slip and stress each over its largest value
-    slip_0, stress_0 = max(r[0] for r in exact), max(r[1] for r in exact)
-    for slip, stress, _, _ in rows:
-        far = max(far, min(to_segment(slip / slip_0, stress / stress_0, p[0] / slip_0, p[1] / stress_0, q[0] / slip_0,
-                                      q[1] / stress_0) for p, q in zip(exact, exact[1:])))
-    say(f"\nlargest distance from the curve of elasticity in (slip, stress) over their largest values: {far:.4f}")
+    say("| d (m) | L (m) | peak (MPa) | largest slip (mm) | at (MPa) | largest displacement (mm) | at (MPa) | work over 2 G_c "
+        "L/a | farthest from elasticity: slip | displacement | from mean damage 0.9 on | last stress over peak | states | s |")
+    say("|" + 14 * "---|")
+    for d in [float(c) for c in args.cases] or PATH_SPHERES:
+        settings = settings_of(5e9, 30, K0, d)
+        settings.update({"test.stop.time": 100000, "test.damage_step": 0.01})
+        out, seconds = run(args, f"path_{d:g}", settings)
+        test = json.loads((out / "summary.json").read_text())["test"]
+        L = test["embedded_length_m"]
+        columns = ("end_slip_m", "end_displacement_m", "end_stress_Pa", "mean_damage")
+        rows = [[float(r[c]) for c in columns] for r in table(out / "pull_out.csv")]
+        exact = [[float(r[c]) for c in columns] for r in table(DATA / f"elastic_path_{L:.2f}m.csv")]
+        slip, displacement = (farthest(rows, exact, k) for k in (0, 1))
+        tail = farthest([r for r in rows if r[3] > 0.9], exact, 0)
+        say(f"| {d:g} | {L:.3f} | " + " | ".join(f"{test[key] / unit:.4f}" for key, unit in TURNS)
+            + f" | {test['work_J_per_m2'] / work_of(L):.5f} | {slip:.4f} | {displacement:.4f} | {tail:.4f} | "
+            f"{rows[-1][2] / test['peak_stress_Pa']:.3f} | {len(rows)} | {seconds:.0f} |")
+        own = elastic_turns(L)
+        say(f"| elasticity | {L:.3f} | " + " | ".join(f"{own[key] / unit:.4f}" for key, (_, unit) in zip(EXACT_TURNS, TURNS))
+            + " | 1" + 6 * " | " + " |")
+
+
+def work_of(L):
+    return 2 * 0.5 * K0 * YIELD * FAILURE * L / A
+
+
+def elastic_turns(L):
+    """Turning points of elasticity at the length nearest to L."""
+    rows = [{k: float(v) for k, v in r.items()} for r in table(DATA / "elastic_lengths.csv")]
+    return min(rows, key=lambda r: abs(r["L_m"] - L))
+
+
+def farthest(rows, exact, k):
+    """Of the states from the curve in (column k, stress), each over its largest value."""
+    x, y = max(r[k] for r in exact), max(r[2] for r in exact)
+    return max(min(to_segment(r[k] / x, r[2] / y, p[k] / x, p[2] / y, q[k] / x, q[2] / y)
+                   for p, q in zip(exact, exact[1:])) for r in rows)
 
 
 def to_segment(x, y, x0, y0, x1, y1):
@@ -155,25 +175,24 @@ def to_segment(x, y, x0, y0, x1, y1):
 def lengths(args, say):
     known = table(DATA / "max_stress_vs_length.csv")
     lag_lengths, lag_peaks = ([float(r[c]) for r in known] for c in ("L_m", "max_stress_Pa"))
-    say("| L (m) | in the run | peak (MPa) | shear-lag, 1-D | ratio | largest slip (mm) | at the end (mm) | turns back | s |")
-    say("|---|---|---|---|---|---|---|---|---|")
+    say("| L (m) | in the run | peak (MPa) | over elasticity | over shear-lag, 1-D | largest slip (mm) | over elasticity "
+        "| at the end (mm) | turns back | largest displacement (mm) | over elasticity | work over 2 G_c L/a | s |")
+    say("|" + 13 * "---|")
     for L in [int(c) for c in args.cases] or LENGTHS:
         settings = settings_of(5e9, L, K0, 1.0)
-        settings.update({"test.stop.time": 100000, "test.damage_step": 0.02})
-        whole = L <= WHOLE_PATHS
-        if not whole:
-            settings["test.stop.damage"] = 0.4  # the peak is behind
+        settings.update({"test.stop.time": 100000, "test.damage_step": 0.01})
         out, seconds = run(args, f"length_{L}", settings)
         test = json.loads((out / "summary.json").read_text())["test"]
         # what hardly holds any more is not found exactly
         slips = [float(r["end_slip_m"]) for r in table(out / "pull_out.csv")
                  if float(r["end_stress_Pa"]) > 0.02 * test["peak_stress_Pa"]]
         most, last = max(slips), slips[-1]
-        peak, length = test["peak_stress_Pa"], test["embedded_length_m"]
-        lag = interpolated(lag_lengths, lag_peaks, length)
-        say(f"| {L} | {length:.3f} | {peak / 1e6:.4f} | {lag / 1e6:.4f} | {peak / lag:.4f} | "
-            + (f"{1e3 * most:.4f} | {1e3 * last:.4f} | {'yes' if most > 1.005 * last else 'no'} | {seconds:.0f} |"
-               if whole else f" | | | {seconds:.0f} |"))
+        peak, length, shift = test["peak_stress_Pa"], test["embedded_length_m"], test["largest_end_displacement_m"]
+        lag, own = interpolated(lag_lengths, lag_peaks, length), elastic_turns(length)
+        say(f"| {L} | {length:.3f} | {peak / 1e6:.3f} | {peak / own['max_stress_Pa']:.4f} | {peak / lag:.4f} | "
+            f"{1e3 * most:.3f} | {most / own['max_slip_m']:.4f} | {1e3 * last:.3f} | "
+            f"{'yes' if most > 1.005 * last else 'no'} | {1e3 * shift:.3f} | "
+            f"{shift / own['max_displacement_m']:.4f} | {test['work_J_per_m2'] / work_of(length):.5f} | {seconds:.0f} |")
 
 
 def speed(args, say):
@@ -198,6 +217,7 @@ def main():
     parser.add_argument("--program", default="grainfrac")
     parser.add_argument("--out", default="pull_out_studies.out")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--keep", action="store_true")
     studies = {"elastic": elastic, "path": path, "lengths": lengths, "speed": speed}
     parser.add_argument("study", nargs="?", choices=studies, default="elastic")
     parser.add_argument("cases", nargs="*")

@@ -97,6 +97,7 @@ PartSpec sample_part(const Case& c, const PartSpec& part, const CalibrationSpec&
         s.generator = host.generator;
         s.diameter = host.diameter;
         s.lattice_axis = host.lattice_axis;
+        s.lattice_origin = host.lattice_origin;
         s.inside.clear();
         s.region = part.region;
         s.region.center = part.region.center - host.region.center;  // where the lattice has its origin

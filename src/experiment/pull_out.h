@@ -28,6 +28,8 @@ Experiment set_up_pull_out(const Case& c, Model& model, State& state);
 std::vector<int> fibre_interfaces(const PullOut& p, const State& state);
 /// The body of a fibre that such an interface belongs to.
 int fibre_side(const PullOut& p, const State& state, int i);
+/// Of the fibre against the matrix, along the fibre; mean of the patch, whose body of the fibre is `fibre` [m].
+double slip_of(const PullOut& p, const State& state, int i, int fibre);
 FibreProfile fibre_profile(const PullOut& p, const State& state);
 PullOutState pull_out_state(const PullOut& p, const State& state);
 /// Results that the whole path tells.

@@ -13,22 +13,6 @@ namespace {
 /// Levels nearer than this share of a fibre's piece are one.
 constexpr double same_level = 0.25;
 
-/// Of the fibre against the matrix, along the fibre; mean of the patch [m].
-double slip_of(const PullOut& p, const State& state, int i, int fibre)
-{
-    const InterfaceBonds& f = state.interfaces;
-    const Bodies& b = state.bodies;
-    const Vec3 along = p.along[static_cast<std::size_t>(fibre)];
-    double slip = 0.0, weight = 0.0;
-    for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
-        const Vec3 on_a = b.position[f.a[i]] + rotate(b.orientation[f.a[i]], state.points.position_a[q]),
-                   on_b = b.position[f.b[i]] + rotate(b.orientation[f.b[i]], state.points.position_b[q]);
-        slip += state.points.weight[q] * dot(on_b - on_a, along);
-        weight += state.points.weight[q];
-    }
-    return (f.a[i] == fibre ? -1.0 : 1.0) * slip / weight;
-}
-
 /// Force of the matrix on the fibre against the pull, along the fibre [N].
 double pull_of(const PullOut& p, const State& state, int i, int fibre)
 {
@@ -67,6 +51,21 @@ std::vector<int> fibre_interfaces(const PullOut& p, const State& state)
         if (a != b) found.push_back(i);
     }
     return found;
+}
+
+double slip_of(const PullOut& p, const State& state, int i, int fibre)
+{
+    const InterfaceBonds& f = state.interfaces;
+    const Bodies& b = state.bodies;
+    const Vec3 along = p.along[static_cast<std::size_t>(fibre)];
+    double slip = 0.0, weight = 0.0;
+    for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
+        const Vec3 on_a = b.position[f.a[i]] + rotate(b.orientation[f.a[i]], state.points.position_a[q]),
+                   on_b = b.position[f.b[i]] + rotate(b.orientation[f.b[i]], state.points.position_b[q]);
+        slip += state.points.weight[q] * dot(on_b - on_a, along);
+        weight += state.points.weight[q];
+    }
+    return (f.a[i] == fibre ? -1.0 : 1.0) * slip / weight;
 }
 
 int fibre_side(const PullOut& p, const State& state, int i)

@@ -24,6 +24,10 @@ constexpr double most_move = 0.1;  ///< over what is there
 constexpr int most_moves = 100;
 /// Towards the end events take this share of what is left, until this little is left.
 constexpr double last_steps = 0.3, nothing_left = 2e-3;
+/// Once this little is left, some patches may be gone around the fibre and others not, so that it can turn freely: what
+/// does not soon come to rest is broken.
+constexpr double little_left = 0.02;
+constexpr int steps_for_little = 20000;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
 constexpr int bisections = 60;
@@ -31,14 +35,16 @@ constexpr int bisections = 60;
 constexpr double same_pull = 1e-4;
 constexpr int most_draws = 30;
 
-/// Overshoot of the event that does `wanted` more mean damage, or breaks what is left.
-double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double wanted)
+/// How far beyond the failure surface, at `surface` times the present jumps, the event goes that brings the mean damage
+/// to `wanted`, or breaks what is left.
+double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double surface,
+                 double wanted)
 {
     double low = 0.0, high = 1.0;
-    while (mean_damage_at(model, state, interfaces, 1.0 + high) < wanted && high < 1e6) high *= 2.0;
+    while (mean_damage_at(model, state, interfaces, surface * (1.0 + high)) < wanted && high < 1e6) high *= 2.0;
     for (int k = 0; k < bisections; ++k) {
         const double middle = 0.5 * (low + high);
-        (mean_damage_at(model, state, interfaces, 1.0 + middle) < wanted ? low : high) = middle;
+        (mean_damage_at(model, state, interfaces, surface * (1.0 + middle)) < wanted ? low : high) = middle;
     }
     return high;
 }
@@ -110,7 +116,24 @@ void PullOutPath::shift_fibre(Model& model, State& state, double by)
     for (int i = 0; i < b.size(); ++i) {
         if (b.group[i] == pull_out_.fibre_group) b.position.at(i) += by * pull_out_.direction;
     }
+    shorten(state);
     book_move(model, state, before);
+}
+
+/// A patch leaves the friction at once, when the fibre's end has slid to its middle. The next one stands for what is
+/// left of it, and then for less of its own: what rubs gets shorter with the slip, not by pieces.
+void PullOutPath::shorten(State& state)
+{
+    const InterfaceBonds& f = state.interfaces;
+    for (const int i : fibre_interfaces(pull_out_, state)) {
+        if (f.retired[i] != 0 || f.damage[i] < 1.0) continue;
+        const double left = f.slip_limit[i] - slip_of(pull_out_, state, i, fibre_side(pull_out_, state, i));
+        const double share = left < pull_out_.piece ? std::max(0.0, 0.5 + left / pull_out_.piece) : 1.0;
+        double weight = 0.0;
+        for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) weight += state.points.weight[q];
+        for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q)
+            state.points.weight.at(q) *= share * f.area[i] / weight;
+    }
 }
 
 /// Of a move that the grip alone did not make: what springs take up at once and friction loses is its work.
@@ -215,6 +238,22 @@ PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, c
     return Found::not_softening;
 }
 
+/// All displacements by a factor, and the damage that they cause half-way: what it releases is then, to second order,
+/// what the law takes. The rest of the damage comes while the model comes to rest.
+void PullOutPath::go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor)
+{
+    const double half = std::sqrt(factor);
+    const auto move = [&] {
+        const Ledger before = energy_ledger(model, state);
+        scale(state, half);
+        book_move(model, state, before);
+    };
+    move();
+    soften(model, state, interfaces, half);
+    step_in_place(model, state);
+    move();
+}
+
 /// All of it slides: moved as one the fibre stretches back against the friction, which must not mind.
 bool PullOutPath::draw(Model& model, State& state, const std::vector<int>& interfaces,
                        const std::function<bool()>& interrupted)
@@ -250,10 +289,11 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     }
     if (!settings_.by_damage) {
         const double now = pull_out_state(pull_out_, state).end_displacement;
-        if (started_ && now > 0.0)
-            scale(state, 1.0 + settings_.shift / now);
-        else
+        if (started_ && now > 0.0) {
+            go_on(model, state, interfaces, 1.0 + settings_.shift / now);
+        } else {
             shift_fibre(model, state, settings_.shift);
+        }
         started_ = true;
         return rested(relax(model, state, interrupted));
     }
@@ -263,25 +303,56 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
         return counted(to_softening(model, state, interrupted));
     }
-    // half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes
-    const double now = mean_damage(state, interfaces), left = 1.0 - now;
-    if (left < nothing_left) {
-        soften(model, state, interfaces, 1e9);
-        step_in_place(model, state);
-        const bool broken = mean_damage(state, interfaces) >= all_broken;
-        return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
+    const double left = 1.0 - mean_damage(state, interfaces);
+    if (left >= nothing_left) {
+        const RelaxSettings patient = settings_.relax;
+        if (left < little_left) settings_.relax.most_steps = std::min(patient.most_steps, steps_for_little);
+        const Found found = next_event(model, state, interfaces, interrupted);
+        settings_.relax = patient;
+        const bool lost = found == Found::not_at_rest || found == Found::not_softening;
+        if (!lost || left >= little_left || (interrupted && interrupted())) return counted(found);
     }
-    const double wanted = now + std::min(settings_.damage_step, last_steps * left);
-    if (factor_to_softening(model, state, interfaces) == 0.0) return Found::end;  // nothing can soften
-    const double reach = 1.0 + overshoot(model, state, interfaces, wanted);
-    const double half = rubs(model, state, interfaces) ? 1.0 : std::sqrt(reach);  // on and back would turn friction
-    if (half > 1.0) {
-        scale(state, half);  // at rest still, but for what turned
-        book_scaling(state, half);
+    soften(model, state, interfaces, 1e9);
+    step_in_place(model, state);
+    const bool broken = mean_damage(state, interfaces) >= all_broken;
+    return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
+}
+
+/// Half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes.
+PullOutPath::Found PullOutPath::next_event(Model& model, State& state, const std::vector<int>& interfaces,
+                                           const std::function<bool()>& interrupted)
+{
+    const double now = mean_damage(state, interfaces), surface = factor_to_softening(model, state, interfaces);
+    if (surface == 0.0) return Found::end;  // nothing can soften
+    if (rubs(model, state, interfaces)) {   // on and back would turn friction
+        soften(model, state, interfaces, 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now)));
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
+        return to_softening(model, state, interrupted);
     }
-    soften(model, state, interfaces, reach / half);
+    const double half = std::sqrt(1.0 + overshoot(model, state, interfaces, surface, next_damage(now)));
+    scale(state, surface * half);  // at rest still, but for what turned
+    book_scaling(state, surface * half);
+    soften(model, state, interfaces, half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;
-    return counted(to_softening(model, state, interrupted));
+    const Found found = to_softening(model, state, interrupted);
+    return found == Found::equilibrium ? balance(model, state, interfaces, interrupted) : found;
+}
+
+double PullOutPath::next_damage(double now) const
+{
+    return now + std::min(settings_.damage_step, last_steps * (1.0 - now));
+}
+
+/// With the first point at its strength the others of the softening zone are a little below theirs, since damage comes
+/// by steps. The state that stands for this damage is that at which the next of it releases what it takes.
+PullOutPath::Found PullOutPath::balance(Model& model, State& state, const std::vector<int>& interfaces,
+                                        const std::function<bool()>& interrupted)
+{
+    const double now = mean_damage(state, interfaces);
+    if (rubs(model, state, interfaces) || 1.0 - now < nothing_left) return Found::equilibrium;
+    const double reach = 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now));
+    scale(state, factor_to_balance(model, state, interfaces, reach));
+    return relax(model, state, interrupted) ? Found::equilibrium : Found::not_at_rest;
 }
 
 }  // namespace grainfrac

@@ -54,9 +54,16 @@ private:
     Found to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
     Found creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
                              const std::function<bool()>& interrupted);
+    Found next_event(Model& model, State& state, const std::vector<int>& interfaces,
+                     const std::function<bool()>& interrupted);
+    Found balance(Model& model, State& state, const std::vector<int>& interfaces,
+                  const std::function<bool()>& interrupted);
+    double next_damage(double now) const;
+    void go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor);
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
+    void shorten(State& state);
     void book_move(Model& model, State& state, const Ledger& before);
     void remember_grip(const State& state);
     void book_scaling(State& state, double factor);

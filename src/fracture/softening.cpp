@@ -43,25 +43,57 @@ InterfaceJump scaled(const InterfaceJump& d, double s)
     return {s * d.n, s * d.s1, s * d.s2};
 }
 
+bool softens(const Model& model, const InterfaceBonds& f, int i)
+{
+    return model.interface_laws[f.law[i]].failure == FailureUnit::point;
+}
+
+/// Twice the elastic energy per area of an interface not damaged [J/m^2].
+double stored(const InterfaceBonds& f, int i, const InterfaceJump& d)
+{
+    const double open = std::fmax(d.n, 0.0);
+    return f.normal_stiffness[i] * open * open + f.shear_stiffness[i] * (d.s1 * d.s1 + d.s2 * d.s2);
+}
+
+/// 1 where the point begins to soften, or goes on with it [-].
+double use_of_strength(const Model& model, const InterfaceBonds& f, int i, const InterfaceJump& d,
+                       const InterfacePointState& p)
+{
+    const InterfaceLaw law = model.interface_laws[f.law[i]];
+    if (p.onset > 0.0) return std::sqrt(stored(f, i, d)) / law.softening_threshold(p);
+    return law.onset_factor(f.normal_stiffness[i] * d.n, f.shear_stiffness[i] * std::sqrt(d.s1 * d.s1 + d.s2 * d.s2),
+                            f.strength_factor[i]);
+}
+
 }  // namespace
 
 double factor_to_softening(const Model& model, const State& state, const std::vector<int>& interfaces)
 {
-    const InterfaceBonds& f = state.interfaces;
     double nearest = 0.0;  // largest use of the strength
     for (const int i : interfaces) {
-        const InterfaceLaw law = model.interface_laws[f.law[i]];
-        if (law.failure != FailureUnit::point) continue;
-        const double k_n = f.normal_stiffness[i], k_s = f.shear_stiffness[i];
+        if (!softens(model, state.interfaces, i)) continue;
         for_each_live_point(state, i, [&](int, const InterfaceJump& d, const InterfacePointState& p) {
-            const double slid2 = d.s1 * d.s1 + d.s2 * d.s2, open = std::fmax(d.n, 0.0);
-            const double used = p.onset > 0.0
-                                    ? std::sqrt(k_n * open * open + k_s * slid2) / law.softening_threshold(p)
-                                    : law.onset_factor(k_n * d.n, k_s * std::sqrt(slid2), f.strength_factor[i]);
-            nearest = std::max(nearest, used);
+            nearest = std::max(nearest, use_of_strength(model, state.interfaces, i, d, p));
         });
     }
     return nearest > 0.0 ? 1.0 / nearest : 0.0;
+}
+
+double factor_to_balance(const Model& model, const State& state, const std::vector<int>& interfaces, double reach)
+{
+    double takes = 0.0, releases = 0.0;
+    for (const int i : interfaces) {
+        if (!softens(model, state.interfaces, i)) continue;
+        for_each_live_point(state, i, [&](int q, const InterfaceJump& d, InterfacePointState p) {
+            const double before = p.damage, used = use_of_strength(model, state.interfaces, i, d, p);
+            softened(model, state.interfaces, i, scaled(d, reach), p);
+            if (p.damage == before) return;
+            const double released = state.points.weight[q] * (p.damage - before) * stored(state.interfaces, i, d);
+            releases += released;
+            takes += released / (used * used);
+        });
+    }
+    return releases > 0.0 ? std::sqrt(takes / releases) : 1.0;
 }
 
 double mean_damage(const State& state, const std::vector<int>& interfaces)
@@ -93,6 +125,7 @@ void soften(const Model& model, State& state, const std::vector<int>& interfaces
 {
     InterfaceBonds& f = state.interfaces;
     for (const int i : interfaces) {
+        if (!softens(model, f, i)) continue;
         const double k_n = f.normal_stiffness[i], k_s = f.shear_stiffness[i];
         double work = 0.0, released = 0.0, sheared = 0.0;
         bool started = false;

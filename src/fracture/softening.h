@@ -14,6 +14,10 @@ namespace grainfrac {
 /// only: faces that fail as a whole never soften.
 double factor_to_softening(const Model& model, const State& state, const std::vector<int>& interfaces);
 
+/// Factor on the present jumps at which the damage that they cause times `reach` would release, to first order, what
+/// the law takes: the mean use of the strength is then 1, by energy, of what is softened. 1 if nothing is.
+double factor_to_balance(const Model& model, const State& state, const std::vector<int>& interfaces, double reach);
+
 /// Mean damage over the area of the interfaces [-].
 double mean_damage(const State& state, const std::vector<int>& interfaces);
 /// What it would be with the present jumps times `reach`.

@@ -62,19 +62,32 @@ inline void run_steps(Built& b, double dt, int steps)
     for (int i = 0; i < steps; ++i) step(b.model, b.state, dt);
 }
 
-/// The whole experiment turned by q about the origin; before it begins.
+/// The whole experiment turned by q about the origin; before it begins. What is held along single axes is not.
 inline void turn_all(Built& b, const Quat& q)
 {
+    const auto turn = [&](Vec3& v) { v = rotate(q, v); };
+    const auto turn_each = [&](Buffer<Vec3>& all) {
+        for (Vec3& v : all.host()) turn(v);
+    };
     Bodies& s = b.state.bodies;
-    for (int i = 0; i < s.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        s.position.host()[k] = s.start_position.host()[k] = rotate(q, s.position[i]);
-        s.orientation.host()[k] = s.start_orientation.host()[k] = normalized(q * s.orientation[i]);
+    for (Buffer<Vec3>* each : {&s.position, &s.start_position, &s.velocity, &s.angular_velocity,
+                               &b.state.sphere_bonds.normal, &b.state.parallels.normal})
+        turn_each(*each);
+    for (Buffer<Quat>* each : {&s.orientation, &s.start_orientation}) {
+        for (Quat& o : each->host()) o = normalized(q * o);
     }
     for (Stage& stage : b.experiment.stages) {
-        for (Vec3& v : stage.wall_velocity) v = rotate(q, v);
+        for (Vec3& v : stage.wall_velocity) turn(v);
+        for (Servo& servo : stage.servos) turn(servo.direction);
+        if (stage.gravity) turn(*stage.gravity);
     }
-    b.experiment.specimen.load_direction = rotate(q, b.experiment.specimen.load_direction);
+    turn(b.model.gravity);
+    turn(b.model.spread_direction);
+    turn(b.experiment.specimen.load_direction);
+    if (b.experiment.pull_out) {
+        turn(b.experiment.pull_out->direction);
+        for (Vec3& v : b.experiment.pull_out->along) turn(v);
+    }
 }
 
 /// Interfaces that failed, in the order of their times.

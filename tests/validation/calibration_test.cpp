@@ -53,6 +53,32 @@ TEST_CASE("the inside of a close packing has the constants of the infinite one")
     }
 }
 
+// Three spheres a level about a channel of hcp, rows of them turned by 60 degrees: uniform strain with the levels free
+// to shrink, K_s = 0. Per level 6 springs that rise (n_z^2 = 2/3) and 3 level ones: E A h = K d^2 (6 (2/3 + s/3)^2 + 3
+// s^2), s = -4/11 the lateral strain over the axial one; h = sqrt(2/3) d.
+TEST_CASE("a thin fibre is taken for its sample from where the lattice has its origin")
+{
+    Case c = packed("hcp", 1.0);
+    c.parts[0].lattice_origin = "channel";
+    PartSpec fibre = c.parts[0];
+    fibre.name = "fibre";
+    fibre.generator = "taken";
+    fibre.inside = "block";
+    fibre.region.diameter = 2.0;
+    c.parts.push_back(fibre);
+    CalibrationSpec& s = c.calibration[0];
+    s.part = "fibre";
+    s.poisson_ratio.reset();
+    s.start_normal_stiffness = 4e9 / std::numbers::pi;  // K = 1e9 N/m
+    s.start_shear_ratio = 1e-9;
+    const CalibrationSample sample(c, 0, Device::cpu);
+    const Response r = sample.pull(sample.start());
+    REQUIRE(r.at_rest);
+    const double lateral = -4.0 / 11.0, rise = 2.0 / 3.0 + lateral / 3.0;
+    const double EA = 1e9 * (6.0 * rise * rise + 3.0 * lateral * lateral) / std::sqrt(2.0 / 3.0);
+    CHECK(r.young_modulus * std::numbers::pi == Approx(EA).epsilon(0.02));  // the ends are held together
+}
+
 // Particles per level times their cells as the section; ends pulled evenly. Computed for R = 6 m, L = 30 m by a
 // solution of the linear system of another program: E over the closed form, nu within 0.002.
 TEST_CASE("a finite cylinder of close packing is softer by its surface")

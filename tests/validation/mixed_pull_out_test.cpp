@@ -113,7 +113,7 @@ TEST_CASE("a fibre of spheres in stiff grains: stiffness, strength and work of t
     const PullOut& p = *b.experiment.pull_out;
     PathSettings s;
     s.shift = 1e-5 * length;
-    s.damage_step = 0.01;
+    s.damage_step = 0.02;
     PullOutPath path(p, s, b.model, b.state);
     double peak = 0.0, work = 0.0;
     PullOutState before;
@@ -129,10 +129,10 @@ TEST_CASE("a fibre of spheres in stiff grains: stiffness, strength and work of t
         work += 0.5 * (now.end_stress + before.end_stress) * (now.end_displacement - before.end_displacement);
         before = now;
     }
-    CHECK(peak == Approx(peak_stress()).epsilon(0.01));
+    CHECK(peak == Approx(peak_stress()).epsilon(0.002));  // of second order in damage_step
     const double toughness = 0.5 * shear_stiffness * yield_slip * failure_slip;
     const Ledger l = energy_ledger(b.model, b.state);
     CHECK(l.fracture == Approx(toughness * 2.0 * std::numbers::pi * radius * length).epsilon(1e-4));
-    CHECK(work == Approx(2.0 * toughness * length / radius).epsilon(0.02));
-    CHECK(l.relative_error() < 0.01);
+    CHECK(work == Approx(2.0 * toughness * length / radius).epsilon(0.003));
+    CHECK(l.relative_error() < 2e-3);
 }

@@ -206,9 +206,20 @@ TEST_CASE("pull-out: the path turns back and ends at the failure slip without st
 {
     Run run(pull_out_case(15.0));
     run.follow(by_damage(0.02), [](const PullOutState&) { return false; });
-    // shear-lag at L = 15: 18.2285 MPa, 4.4355 mm; elasticity is 4.5 % above in stress, 2.1 % below in slip (L = 30)
-    CHECK(1e-6 * run.largest(&PullOutState::end_stress) == Approx(18.2285 * 1.045).epsilon(0.03));
-    CHECK(1e3 * run.largest(&PullOutState::exit_slip) == Approx(4.4355 * 0.979).epsilon(0.03));
+    // axisymmetric elasticity at the same length (tests/data/fibre/elastic_lengths.csv)
+    const double length = run.pull_out().length;
+    REQUIRE(length == Approx(14.6969).epsilon(1e-5));
+    CHECK(1e-6 * run.largest(&PullOutState::end_stress) == Approx(18.7927).epsilon(0.01));
+    CHECK(1e3 * run.largest(&PullOutState::exit_slip) == Approx(4.33237).epsilon(0.015));
+    CHECK(1e3 * run.largest(&PullOutState::end_displacement) == Approx(4.61249).epsilon(0.015));
+    // whatever the elasticity the closed path takes what breaks the interface, 2 G_c L/a: of second order in
+    // damage_step
+    double work = 0.0;
+    for (std::size_t k = 1; k < run.path.size(); ++k) {
+        work += 0.5 * (run.path[k].end_stress + run.path[k - 1].end_stress) *
+                (run.path[k].end_displacement - run.path[k - 1].end_displacement);
+    }
+    CHECK(work == Approx(2.0 * 1500.0 * length).epsilon(2e-3));
     const PullOutState& last = run.path.back();
     CHECK(last.end_stress < 0.02 * run.largest(&PullOutState::end_stress));
     CHECK(last.exit_slip == Approx(3e-3).epsilon(0.05));
@@ -227,7 +238,7 @@ TEST_CASE("pull-out: the path turns back and ends at the failure slip without st
     for (const int i : fibre_interfaces(run.pull_out(), run.built.state)) area += run.built.state.interfaces.area[i];
     CHECK(area == Approx(2.0 * std::numbers::pi * run.pull_out().length).epsilon(1e-9));
     CHECK(e.fracture == Approx(1500.0 * area).epsilon(5e-3));
-    CHECK(e.relative_error() < 5e-3);
+    CHECK(e.relative_error() < 1e-3);
 }
 
 TEST_CASE("pull-out: a broken interface slides under its residual shear and under pressure", "[pull_out]")
@@ -250,15 +261,10 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
         if (first_profile.slip.empty()) first_profile = fibre_profile(p, run.built.state);
         return now.exit_slip > 2.0;
     });
-    // patches leave the friction one level after the other: tau_r times the area that is left
+    // 2 tau_r (L - s)/a, with the first patches as with the last
     for (const PullOutState& now : run.path) {
         if (now.exit_slip < 0.2) continue;
-        double left = 0.0;
-        const double levels = std::round(p.length / p.piece);
-        for (int k = 0; k < static_cast<int>(levels); ++k) {
-            if ((k + 0.5) * p.piece > now.exit_slip) left += p.piece;
-        }
-        CHECK(now.end_stress == Approx(2.0 * 0.2e6 * left).epsilon(0.01));
+        CHECK(now.end_stress == Approx(2.0 * 0.2e6 * (p.length - now.embedded_slip)).epsilon(0.005));
     }
     CHECK(run.path.back().exit_slip > 2.0);
     // first state: from the last level to the exit the fibre is stretched by the whole pull
@@ -283,11 +289,12 @@ TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pu
     Run run(c);
     PathSettings s = by_damage(0.5);
     s.slides = true;
-    s.slide = 0.1;  // less than half a piece: no patch has left the friction
+    s.slide = 0.1;
     run.follow(s, [](const PullOutState& now) { return now.exit_slip > 0.05; });  // all of it slides
     const PullOut& p = run.pull_out();
     CHECK(run.found == PullOutPath::Found::equilibrium);
-    const double expected = 1e6 / contraction * (1.0 - std::exp(-2.0 * 0.1 * contraction * p.length));
+    const double left = p.length - run.path.back().embedded_slip;
+    const double expected = 1e6 / contraction * (1.0 - std::exp(-2.0 * 0.1 * contraction * left));
     CHECK(run.path.back().mean_damage == Approx(1.0));
     CHECK(run.path.back().end_stress == Approx(expected).epsilon(tolerance));
     CHECK(energy_ledger(run.built.model, run.built.state).relative_error() < 5e-3);
