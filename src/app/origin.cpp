@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/origin.h"
 
-#include "io/archive.h"
 #include "io/atomic_file.h"
 #include "io/input_document.h"
+#include "model/checksum.h"
 
 #include <fmt/format.h>
 

@@ -5,6 +5,7 @@
 #include "app/run.h"
 #include "app/signals.h"
 #include "app/version.h"
+#include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "io/input.h"
 #include "io/input_document.h"
@@ -99,7 +100,7 @@ void check_lost_changes(const fs::path& folder, const RunOrigin& before, const R
     RunOrigin newest;
     std::vector<InputChange> lost;
     try {
-        newest.resolved = read_text((folder / "resolved.toml").string());
+        newest.resolved = read_file(folder / "resolved.toml");
         for (const InputChange& c : changes(before, newest)) lost.push_back(c);
         const std::vector<InputChange> given = changes(before, now);
         std::erase_if(lost, [&](const InputChange& l) {
