@@ -50,7 +50,11 @@ void restore(LiveRun& run, const RunFacts& facts, const Restart& restart)
     run.record.phases.build += build;
     if (restart.new_time_step) choose_step(run);
     change_intervals(run, restart);
-    run.folder.go_on(facts, run.origin.resolved, run.mark, run.input.test.profiles_at);
+    try {
+        run.folder.go_on(facts, run.origin.resolved, run.mark, run.input.test.profiles_at);
+    } catch (const CheckpointError& e) {
+        throw CheckpointError(fmt::format("{}: does not fit the folder: {}", restart.checkpoint.string(), e.what()));
+    }
     for (const auto& newer : restart.refused) {
         spdlog::warn("{} is damaged or of another version: set aside as {}.refused", newer.string(),
                      newer.filename().string());

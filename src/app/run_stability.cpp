@@ -17,6 +17,11 @@ double speed_limit(const LiveRun& run)
 {
     if (!(run.experiment.wave_speed > 0.0)) return 0.0;
     double scale = std::max(run.experiment.wave_speed, fastest_speed(run.model, run.state));
+    for (const Group& g : run.model.groups) {
+        if (g.material < 0) continue;  // a wall
+        const Material& m = run.model.materials[static_cast<std::size_t>(g.material)];
+        scale = std::max(scale, std::sqrt(m.young_modulus / m.density));
+    }
     for (const Stage& s : run.experiment.stages) {
         for (const Vec3& v : s.wall_velocity) scale = std::max(scale, norm(v));
     }

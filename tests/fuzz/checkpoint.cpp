@@ -2,11 +2,11 @@
 // Checkpoints: a good one that is edited is read, or refused with a message. Sealed anew, or no edit would pass the
 // seal.
 #include "io/checkpoint.h"
-#include "model/checksum.h"
 
 #include "experiment/experiment.h"
 #include "io/atomic_file.h"
 #include "io/input.h"
+#include "model/checksum.h"
 #include "model/validate.h"
 #include "scratch_file.h"
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <thread>
 
 using namespace program_test;
@@ -159,6 +160,54 @@ TEST_CASE("SIGTERM and SIGINT stop with a checkpoint, SIGUSR1 makes one and the 
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     CHECK(checkpoints(w.folder / "out").size() == 2);
     CHECK(child.wait() == 0);
+}
+
+TEST_CASE("a second SIGINT ends a run at once that cannot end by itself, and its checkpoint is there")
+{
+    const Workplace w;
+    const Scene scene = spheres(100);
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    {
+        Child child(w, run_arguments(w, scene, "out"));
+        wait_for_rows(child, w.folder / "out/history.csv", 40);
+        // the end of the run hangs at a pipe that nobody reads
+        REQUIRE(::mkfifo((w.folder / "out/summary.json.tmp").c_str(), 0600) == 0);
+        child.send(SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        child.send(SIGINT);  // the same wish, passed on twice
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+        REQUIRE(child.running());
+        child.send(SIGINT);
+        CHECK(child.wait() == 130);
+    }
+    CHECK_FALSE(fs::exists(w.folder / "out/summary.json"));
+    CHECK(resume(w, "out") == 0);
+    const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+    INFO(listed(found) << said(w));
+    CHECK(found.empty());
+}
+
+TEST_CASE("results.h5 that a power failure left in pieces is made whole from the checkpoint")
+{
+    const Workplace w;
+    const Scene scene = spheres(100);
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    run_and_kill(w, scene, "out", 70);
+    {
+        std::fstream file(w.folder / "out/results.h5", std::ios::binary | std::ios::in | std::ios::out);
+        file << std::string(4096, '\0');  // superblock and first headers
+    }
+    const fs::path frame = "paraview/spheres_000000.vtp";
+    const bool with_frames = fs::remove(w.folder / "out" / frame);  // else built without VTK
+    const Outcome o = w.run("resume out --no-report --threads 1");
+    CHECK(o.code == 0);
+    if (with_frames) {
+        CHECK(o.err.find("1 files of the series are missing, the first of them spheres_0") != std::string::npos);
+        fs::copy(w.folder / "whole" / frame, w.folder / "out" / frame);
+    }
+    const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+    INFO(listed(found) << said(w));
+    CHECK(found.empty());
 }
 
 TEST_CASE("history.csv and results.h5 are read while the run goes on")
