@@ -457,6 +457,39 @@ TEST_CASE("a damaged checkpoint is told, the one before is used, and the bits ar
     CHECK(said(w).find("holds no checkpoint that can be gone on from") != std::string::npos);
 }
 
+TEST_CASE("a checkpoint that does not fit the files of its folder is told, and the one before is used")
+{
+    const Workplace w;
+    const Scene scene = spheres(100);
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    run_and_kill(w, scene, "out", 70);
+    const std::vector<fs::path> there = checkpoints(w.folder / "out");
+    const auto step = [](const fs::path& p) { return std::stol(p.stem().string().substr(5)); };
+    const fs::path history = w.folder / "out/history.csv";
+    std::string text = text_of(history);
+    bool altered = false;
+    for (const std::string& row : history_rows(history)) {  // one that only the newer of them knows
+        const long at = std::stol(row);
+        if (altered || at <= step(there.at(1)) || at > step(there.at(0))) continue;
+        char& last = text[text.find(row) + row.size() - 1];
+        last = last == '1' ? '2' : '1';
+        altered = true;
+    }
+    REQUIRE(altered);
+    std::ofstream(history) << text;
+    CHECK(resume(w, "out") == 0);
+    CHECK(said(w).find(there.at(0).filename().string() + ": does not fit the folder: out/history.csv: was altered") !=
+          std::string::npos);
+    const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+    INFO(listed(found) << said(w));
+    CHECK(found.empty());
+    // a run that has ended says so, also without any checkpoint
+    for (const fs::path& checkpoint : checkpoints(w.folder / "out")) fs::remove(checkpoint);
+    const Outcome ended = w.run("resume out");
+    CHECK(ended.code == 0);
+    CHECK(ended.out.find("the run has ended") != std::string::npos);
+}
+
 TEST_CASE("a full disk: a reason, what was written is readable, and with room the run goes on", "[slow]")
 {
     const Workplace w;
