@@ -98,6 +98,7 @@ std::vector<InputChange> changes(const RunOrigin& before, const RunOrigin& now)
         }
     }
     std::vector<InputChange> list;
+    list.reserve(found.size());
     for (const auto& [key, change] : found) list.push_back(change);
     for (std::size_t i = 0; i < std::min(before.files.size(), now.files.size()); ++i) {
         if (before.files[i] == now.files[i] && before.checksums.at(i) != now.checksums.at(i))
