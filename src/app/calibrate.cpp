@@ -192,7 +192,7 @@ int calibrate_command(const Options& o)
         const ResultFolder folder(out, o.force);  // refused before any work
         for (const char* unused : {"paraview", "checkpoint"}) fs::remove(out / unused);
         write_file(out / "resolved.toml", to_toml(c));
-        write_file(out / "input.toml", read_text(o.file));
+        write_file(out / "input.toml", read_file(o.file));
         for (std::size_t i = 0; i < c.calibration.size(); ++i) all.push_back(calibrate_part(c, i, device, o.quiet));
     } catch (const InputError& e) {
         report(e, c);

@@ -71,8 +71,7 @@ void announce(const Case& c, const Options& o)
         report(e, c);
         throw ReportedInputError{};
     }
-    double bodies = 0.0;
-    for (const PartSpec& p : c.parts) bodies += expected_bodies(p);
+    const double bodies = expected_bodies(c);
     if (bodies > many_bodies && !o.quiet) fmt::print(stderr, "building about {:.2g} grains and spheres\n", bodies);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/origin.h"
 
-#include "io/archive.h"
 #include "io/atomic_file.h"
 #include "io/input_document.h"
+#include "model/checksum.h"
 
 #include <fmt/format.h>
 
@@ -98,6 +98,7 @@ std::vector<InputChange> changes(const RunOrigin& before, const RunOrigin& now)
         }
     }
     std::vector<InputChange> list;
+    list.reserve(found.size());
     for (const auto& [key, change] : found) list.push_back(change);
     for (std::size_t i = 0; i < std::min(before.files.size(), now.files.size()); ++i) {
         if (before.files[i] == now.files[i] && before.checksums.at(i) != now.checksums.at(i))

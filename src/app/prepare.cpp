@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 namespace grainfrac {
 
@@ -68,15 +66,6 @@ std::vector<std::string> plausibility_warnings(const Case& c, const Built& built
         lines.push_back(line.substr(severity.size(), line.size() - severity.size() - 1));
     }
     return lines;
-}
-
-std::string read_text(const std::string& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in) throw std::runtime_error(fmt::format("cannot read \"{}\"", file));
-    return text.str();
 }
 
 }  // namespace grainfrac

@@ -35,9 +35,6 @@ void start_check(const Case& c, Built& built);
 /// What is to be known of the set-up; then what the input says and hardly means, as "FILE:LINE: KEY = VALUE: message".
 std::vector<std::string> plausibility_warnings(const Case& c, const Built& built, const ChosenStep& step);
 
-/// Contents of a file. Throws std::runtime_error.
-std::string read_text(const std::string& file);
-
 /// Prints problems of an InputError.
 void report(const InputError& e, const Case& c);
 

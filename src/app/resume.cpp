@@ -5,6 +5,7 @@
 #include "app/run.h"
 #include "app/signals.h"
 #include "app/version.h"
+#include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "io/input.h"
 #include "io/input_document.h"
@@ -99,7 +100,7 @@ void check_lost_changes(const fs::path& folder, const RunOrigin& before, const R
     RunOrigin newest;
     std::vector<InputChange> lost;
     try {
-        newest.resolved = read_text((folder / "resolved.toml").string());
+        newest.resolved = read_file(folder / "resolved.toml");
         for (const InputChange& c : changes(before, newest)) lost.push_back(c);
         const std::vector<InputChange> given = changes(before, now);
         std::erase_if(lost, [&](const InputChange& l) {
@@ -147,6 +148,12 @@ void check_end(const fs::path& folder, const std::vector<InputChange>& changed, 
     throw ReportedInputError{};
 }
 
+int nothing_to_do(const fs::path& folder, const Ending& ended)
+{
+    fmt::print("{}: the run has ended: {}; there is nothing to go on with\n", folder.string(), ended.reason);
+    return ended.code;
+}
+
 int resume_from(Restart& restart, const Options& o, ResultFolder& folder, const std::optional<Ending>& ended,
                 std::optional<RunOrigin>& known)
 {
@@ -170,11 +177,7 @@ int resume_from(Restart& restart, const Options& o, ResultFolder& folder, const 
     const Device device = parse_device(o.device);
     const RunOrigin now = origin_of(c, input.overrides, to_toml(c), device);
     const std::vector<InputChange> changed = changes(before, now);
-    if (ended && changed.empty()) {
-        fmt::print("{}: the run has ended: {}; there is nothing to go on with\n", folder.path().string(),
-                   ended->reason);
-        return ended->code;
-    }
+    if (ended && changed.empty()) return nothing_to_do(folder.path(), *ended);
     if (ended) {
         check_end(folder.path(), changed, *ended, c);
         fmt::print(stderr, "warning: {}: the run has ended: {}; what came after {}, t = {:.4g} s, {} made anew\n",
@@ -219,6 +222,7 @@ int resume_command(const Options& o)
             restart.refused.push_back(checkpoint);
         }
     }
+    if (ended && o.overrides.empty()) return nothing_to_do(folder.path(), *ended);
     throw std::runtime_error(
         fmt::format("{}: {}{}", folder.path().string(),
                     restart.refused.empty() ? "holds no checkpoint" : "holds no checkpoint that can be gone on from",

@@ -8,7 +8,9 @@
 #include "app/version.h"
 #include "gpu/device.h"
 #include "gpu/thread_pool.h"
+#include "io/atomic_file.h"
 #include "io/input.h"
+#include "model/checksum.h"
 
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -23,14 +25,6 @@
 namespace grainfrac {
 
 namespace {
-
-/// FNV-1a of the resolved input: two runs with the same hash simulate the same thing.
-std::string text_hash(const std::string& text)
-{
-    std::uint64_t h = 14695981039346656037ULL;
-    for (const char ch : text) h = (h ^ static_cast<unsigned char>(ch)) * 1099511628211ULL;
-    return fmt::format("{:016x}", h);
-}
 
 void open_log(const std::filesystem::path& folder, const Options& o, bool anew)
 {
@@ -105,7 +99,9 @@ void print_outcome(const RunFacts& facts, const Built& b, const RunRecord& recor
 
 RunFacts run_facts(const Case& c, const std::string& resolved, Device device)
 {
-    return {GRAINFRAC_VERSION, text_hash(resolved), to_string(device), c.simulation.seed, threads(), c.test.kind};
+    // two runs with the same hash of the resolved input simulate the same thing
+    const std::string hash = fmt::format("{:016x}", checksum(resolved.data(), resolved.size()));
+    return {GRAINFRAC_VERSION, hash, to_string(device), c.simulation.seed, threads(), c.test.kind};
 }
 
 int carry_out(const Case& c, const Options& o, const RunFacts& facts, const RunOrigin& origin, Built& built,
@@ -142,7 +138,7 @@ int run_command(const Options& o)
 {
     survive_signals();
     const Case c = load_case(o);
-    const std::string input_text = read_text(o.file);
+    const std::string input_text = read_file(o.file);
     const Device device = parse_device(o.device);
     const auto before = std::chrono::steady_clock::now();
     Built built = build_case(c, device);

@@ -136,7 +136,7 @@ Experiment set_up_custom(const Case& c, Model& model, State& state)
                          "missing; a run needs [test] or [[stages]]; this input is for `grainfrac calibrate`");
     Experiment e;
     e.kind = "custom";
-    const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
+    const Material& m = loaded_material(model);
     e.wave_speed = std::sqrt(m.young_modulus / m.density);
     double longest = 0.0;
     for (const StageSpec& s : c.stages) {

@@ -73,7 +73,7 @@ Experiment set_up_drop(const Case& c, Model& model, State& state)
     e.quasi_static = false;
     model.resolve_impacts = true;
     e.results = results;
-    const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
+    const Material& m = loaded_material(model);
     e.wave_speed = std::sqrt(m.young_modulus / m.density);
 
     // the floor first touches the rounded grains, then sinks by the height of the fall

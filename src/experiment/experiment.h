@@ -116,7 +116,7 @@ struct Experiment {
     std::vector<Stage> stages;
     int reference_stage = -1;           ///< where it begins, length, section and displacement are taken anew; -1: never
     double expected_duration = 0.0;     ///< guess from elasticity and strength, for output intervals and time left [s]
-    double wave_speed = 0.0;            ///< sqrt(E/rho) of the first material [m/s]
+    double wave_speed = 0.0;            ///< sqrt(E/rho) of the loaded material [m/s]
     double quasi_static_speed = 0.0;    ///< 0.01 sigma_t/(rho c_0); 0 without a strength [m/s]
     double speed_of_each_wall = 0.0;    ///< that the test drives; 0: not known [m/s]
     bool quasi_static = true;           ///< else inertia belongs to the test, and nothing warns of it

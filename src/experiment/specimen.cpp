@@ -163,7 +163,7 @@ double mean_position(const State& state, int wall, int axis)
 
 void set_loading_stage(const Case& c, const Model& model, double ramp_length, Experiment& e)
 {
-    const Material& m = model.materials[static_cast<std::size_t>(model.groups.front().material)];
+    const Material& m = loaded_material(model);
     e.wave_speed = std::sqrt(m.young_modulus / m.density);
     e.speed_of_each_wall = 0.5 * c.test.platen_speed;
     const Specimen& s = e.specimen;

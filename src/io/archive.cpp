@@ -2,6 +2,7 @@
 #include "io/archive.h"
 
 #include "io/hdf5_file.h"
+#include "model/checksum.h"
 
 #include <stdexcept>
 
@@ -12,13 +13,6 @@ namespace {
 constexpr std::size_t per_array = 2048;  // [B] headers; measured: under 1000
 
 }  // namespace
-
-std::uint64_t checksum(const void* data, std::size_t bytes, std::uint64_t hash)
-{
-    const auto* p = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ p[i]) * 0x100000001b3u;
-    return hash;
-}
 
 void Archive::fail(const std::string& what) const
 {

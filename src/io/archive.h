@@ -18,10 +18,6 @@ namespace grainfrac {
 
 class Hdf5File;
 
-/// FNV-1a over the bytes: catches damage, not malice. `hash`: of what came before.
-inline constexpr std::uint64_t no_bytes_checksum = 0xcbf29ce484222325u;
-std::uint64_t checksum(const void* data, std::size_t bytes, std::uint64_t hash = no_bytes_checksum);
-
 class Archive {
 public:
     enum class Way { count, save, load };

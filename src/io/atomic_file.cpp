@@ -42,6 +42,15 @@ private:
     int fd_;
 };
 
+void sync_folder(const std::filesystem::path& folder)
+{
+    // Not every file system lets a folder be synced; the rename itself has succeeded by now.
+    const Descriptor file(folder.empty() ? std::filesystem::path(".") : folder, O_RDONLY | O_DIRECTORY);
+    if (file.get() >= 0) (void)::fsync(file.get());
+}
+
+}  // namespace
+
 bool write_all(int fd, std::string_view content)
 {
     while (!content.empty()) {
@@ -52,15 +61,6 @@ bool write_all(int fd, std::string_view content)
     }
     return true;
 }
-
-void sync_folder(const std::filesystem::path& folder)
-{
-    // Not every file system lets a folder be synced; the rename itself has succeeded by now.
-    const Descriptor file(folder.empty() ? std::filesystem::path(".") : folder, O_RDONLY | O_DIRECTORY);
-    if (file.get() >= 0) (void)::fsync(file.get());
-}
-
-}  // namespace
 
 std::filesystem::path aside(const std::filesystem::path& path)
 {

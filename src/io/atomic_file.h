@@ -26,6 +26,9 @@ void commit_file(const std::filesystem::path& path);
 /// What was written to the file so far is on disk, not only with the operating system.
 void sync_file(const std::filesystem::path& path);
 
+/// All of `content` to a file or a pipe; false, with errno, if it cannot be.
+bool write_all(int fd, std::string_view content);
+
 /// Whole file. Throws std::runtime_error.
 std::string read_file(const std::filesystem::path& path);
 

@@ -3,6 +3,7 @@
 
 #include "io/atomic_file.h"
 #include "io/hdf5_file.h"
+#include "model/checksum.h"
 
 #include <fmt/format.h>
 

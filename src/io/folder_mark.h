@@ -4,6 +4,7 @@
 
 #include "experiment/pull_out.h"
 #include "io/growing_text.h"
+#include "io/hdf5_skeleton.h"
 
 #include <cstdint>
 #include <map>
@@ -14,8 +15,9 @@
 
 namespace grainfrac {
 
-/// How much of results.h5 is there at a checkpoint, and what the file itself does not tell.
+/// What results.h5 is at a checkpoint, and what the file itself does not tell.
 struct Hdf5Mark {
+    Hdf5Skeleton skeleton;
     std::vector<std::int64_t> extents;  ///< of all datasets, one after the other
     std::vector<double> bond_failure;   ///< that of the file is written over [s]
     std::vector<std::int32_t> bond_cause;
@@ -25,12 +27,13 @@ struct Hdf5Mark {
     template <class Visit>
     void for_each_member(Visit&& visit)
     {
-        auto& [a, b, c, d, e] = *this;
-        visit("extents", a);
-        visit("bond_failure", b);
-        visit("bond_cause", c);
-        visit("last_crack", d);
-        visit("last_step", e);
+        auto& [a, b, c, d, e, f] = *this;
+        visit("skeleton", a);
+        visit("extents", b);
+        visit("bond_failure", c);
+        visit("bond_cause", d);
+        visit("last_crack", e);
+        visit("last_step", f);
     }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/growing_text.h"
 
-#include "io/archive.h"
 #include "io/atomic_file.h"
+#include "model/checksum.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -120,36 +120,28 @@ void Hdf5Growing::write_block(const Extents& offset, const Extents& count, hid_t
         fail_at(where_, "write");
 }
 
-void Hdf5Growing::copy_from(const Hdf5File& file, const Extents& extents)
+void Hdf5Growing::add_new_chunks(std::vector<FileRange>& ranges)
 {
-    constexpr hsize_t most_entries = hsize_t{1} << 20;  // at once
-    const auto fail = [&](const std::string& what) {
-        throw std::runtime_error(file.path_.string() + ": " + name_ + ": " + what);
-    };
-    const Extents there = file.extents(name_);
-    hsize_t per_row = 1;
-    for (std::size_t d = 0; d < extents.size(); ++d) {
-        if (there.size() != extents.size() || extents_.size() != extents.size() || there[d] < extents[d])
-            fail("holds less than at the checkpoint");
-        if (d > 0) per_row *= extents[d];
+    // new ones come last: an index is in the order of rows
+    const hsize_t before = known_chunks_;
+    know_chunks();
+    std::vector<hsize_t> offset(extents_.size());
+    const Hdf5Id space(H5Dget_space(dataset_.get()), H5Sclose);
+    for (hsize_t i = before; i < known_chunks_; ++i) {
+        unsigned mask = 0;
+        haddr_t address = HADDR_UNDEF;
+        hsize_t bytes = 0;
+        if (H5Dget_chunk_info(dataset_.get(), space.get(), i, offset.data(), &mask, &address, &bytes) < 0)
+            fail_at(where_, "find the chunks");
+        if (address != HADDR_UNDEF)
+            ranges.push_back({static_cast<std::int64_t>(address), static_cast<std::int64_t>(bytes)});
     }
-    const Hdf5Id from(H5Dopen2(file.file_.get(), name_.c_str(), H5P_DEFAULT), H5Dclose);
-    const Hdf5Id space(H5Dget_space(from.get()), H5Sclose);
-    const hsize_t rows_at_once = std::max<hsize_t>(1, most_entries / std::max<hsize_t>(1, per_row));
-    std::vector<char> block;
-    if (H5Dset_extent(dataset_.get(), extents.data()) < 0) fail_at(where_, "grow");
-    extents_ = extents;
-    for (hsize_t row = 0; per_row > 0 && row < extents[0]; row += rows_at_once) {
-        Extents offset(extents.size(), 0), count = extents;
-        offset[0] = row;
-        count[0] = std::min(rows_at_once, extents[0] - row);
-        block.resize(count[0] * per_row * H5Tget_size(type_));
-        const Hdf5Id memory = simple_space(count);
-        if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr) < 0 ||
-            H5Dread(from.get(), type_, memory.get(), space.get(), H5P_DEFAULT, block.data()) < 0)
-            fail("cannot be read: " + hdf5_reason());
-        write_block(offset, count, type_, block.data(), count[0] * per_row);
-    }
+}
+
+void Hdf5Growing::know_chunks()
+{
+    const Hdf5Id space(H5Dget_space(dataset_.get()), H5Sclose);
+    if (H5Dget_num_chunks(dataset_.get(), space.get(), &known_chunks_) < 0) fail_at(where_, "count the chunks");
 }
 
 void Hdf5Growing::flush()
@@ -157,11 +149,11 @@ void Hdf5Growing::flush()
     if (H5Dflush(dataset_.get()) < 0) fail_at(where_, "flush");
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path, const std::filesystem::path& shown)
+Hdf5File Hdf5File::create(const std::filesystem::path& path)
 {
     set_up();
     Hdf5File file;
-    file.path_ = shown.empty() ? path : shown;
+    file.path_ = path;
     const Hdf5Id access = newest_format();
     file.file_ = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
     if (file.file_.get() < 0) file.fail("create");
@@ -180,8 +172,23 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path, Access access)
     return file;
 }
 
+Hdf5File Hdf5File::go_on(const std::filesystem::path& path)
+{
+    set_up();
+    Hdf5File file;
+    file.path_ = path;
+    file.goes_on_ = true;
+    const Hdf5Id access = newest_format();
+    const hbool_t clear = true;  // what h5clear does
+    if (H5Pset(access.get(), "clear_status_flags", &clear) < 0) file.fail("open");
+    file.file_ = Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
+    if (file.file_.get() < 0) file.fail("open");
+    return file;
+}
+
 void Hdf5File::make_group(const std::string& name)
 {
+    if (goes_on_ && has(name)) return;
     const Hdf5Id group(H5Gcreate2(file_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
     if (group.get() < 0) fail("create group " + name);
 }
@@ -228,6 +235,9 @@ std::string Hdf5File::text_attribute(const std::string& name, const std::string&
 
 void Hdf5File::write_attribute(const std::string& name, const std::string& attribute, hid_t type, const void* value)
 {
+    if (goes_on_ && H5Aexists_by_name(file_.get(), name.c_str(), attribute.c_str(), H5P_DEFAULT) > 0 &&
+        H5Adelete_by_name(file_.get(), name.c_str(), attribute.c_str(), H5P_DEFAULT) < 0)
+        fail("replace attribute " + attribute + " of " + name);
     const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
     const Hdf5Id object(H5Acreate_by_name(file_.get(), name.c_str(), attribute.c_str(), stored_type(type), space.get(),
                                           H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -287,6 +297,13 @@ Hdf5Growing Hdf5File::create_growing(const std::string& name, int growing, const
     result.type_ = type;
     result.extents_ = chunk;
     std::fill_n(result.extents_.begin(), growing, 0);
+    if (goes_on_) {
+        result.extents_ = extents(name);
+        result.dataset_ = Hdf5Id(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+        if (result.dataset_.get() < 0 || result.extents_.size() != chunk.size()) fail("open " + name);
+        result.know_chunks();
+        return result;
+    }
     std::vector<hsize_t> most = chunk;
     std::fill_n(most.begin(), growing, H5S_UNLIMITED);
     const Hdf5Id space(H5Screate_simple(static_cast<int>(chunk.size()), result.extents_.data(), most.data()), H5Sclose);

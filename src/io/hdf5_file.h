@@ -3,6 +3,8 @@
 // HDF5 said; HDF5 itself prints nothing.
 #pragma once
 
+#include "io/hdf5_skeleton.h"
+
 #include <hdf5.h>
 
 #include <cstdint>
@@ -62,8 +64,10 @@ public:
     void flush();
     hsize_t rows() const { return extents_.empty() ? 0 : extents_[0]; }
     const Extents& extents() const { return extents_; }
-    /// Fill this empty dataset with the first `extents` entries of the one of the same name in another file.
-    void copy_from(const Hdf5File& file, const Extents& extents);
+    /// Adds to `ranges` where the chunks lie that were not there at the last call.
+    void add_new_chunks(std::vector<FileRange>& ranges);
+    /// Those that are there now are known: the next call leaves them out.
+    void know_chunks();
 
 private:
     friend class Hdf5File;
@@ -73,15 +77,18 @@ private:
     hid_t type_ = H5I_INVALID_HID;
     Hdf5Id dataset_;
     Extents extents_;
+    hsize_t known_chunks_ = 0;
 };
 
 class Hdf5File {
 public:
     /// New file, an old one is cut to nothing. Format 1.10: SWMR, and metadata carries checksums.
-    /// `shown`: the name in messages, of a file that gets its own later.
-    static Hdf5File create(const std::filesystem::path& path, const std::filesystem::path& shown = {});
+    static Hdf5File create(const std::filesystem::path& path);
     enum class Access { plain, live };  ///< live: another process may be writing (SWMR)
     static Hdf5File open(const std::filesystem::path& path, Access access = Access::plain);
+    /// To go on writing: what is to be made and is there already is opened, attributes are written anew. The mark that
+    /// a killed writer left is taken off.
+    static Hdf5File go_on(const std::filesystem::path& path);
     Hdf5File() = default;
 
     const std::filesystem::path& path() const { return path_; }
@@ -159,6 +166,7 @@ private:
 
     std::filesystem::path path_;
     Hdf5Id file_;
+    bool goes_on_ = false;  // what is made may be there
 };
 
 }  // namespace grainfrac

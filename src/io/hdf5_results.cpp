@@ -82,32 +82,25 @@ Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& fact
     file_.start_live();
 }
 
-Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& facts, const Hdf5Mark& mark)
-    : file_(Hdf5File::create(aside(path), path)), now_(mark)
+Hdf5Results::Hdf5Results(const std::filesystem::path& path, const RunFacts& facts, const Hdf5Mark& mark) : now_(mark)
 {
+    put_back(path, mark.skeleton);
+    file_ = Hdf5File::go_on(path);
     make(facts);
-    {
-        const Hdf5File old = Hdf5File::open(path, Hdf5File::Access::live);  // a killed run left it open
-        std::size_t k = 0;
-        for_each_dataset([&](Hdf5Growing& dataset) {
-            Hdf5Growing::Extents extents(dataset.extents().size());
-            for (hsize_t& n : extents) n = static_cast<hsize_t>(mark.extents.at(k++));
-            dataset.copy_from(old, extents);
-        });
-        const auto grains = old.read<std::int32_t>("/snapshots/grain_id");
-        for (hsize_t row = 0; row < snapshots_.grain_id.rows(); ++row) grain_rows_.emplace(grains[row], row);
-        const auto a = old.read<std::int32_t>("/bonds/grain_a"), b = old.read<std::int32_t>("/bonds/grain_b");
-        std::map<IdPair, int> seen;
-        for (hsize_t row = 0; row < bonds_.kind.rows(); ++row) {
-            const IdPair pair = std::minmax({a[row], b[row]});
-            bond_rows_.emplace(std::tuple{pair.first, pair.second, seen[pair]++}, row);
-        }
+    chunks_ = rest_of(mark.skeleton.ranges, mark.skeleton.length);
+    if (extents() != mark.extents) throw std::runtime_error(path.string() + ": is not what the checkpoint tells of");
+    const auto grains = file_.read<std::int32_t>("/snapshots/grain_id");
+    for (std::size_t row = 0; row < grains.size(); ++row) grain_rows_.emplace(grains[row], row);
+    const auto a = file_.read<std::int32_t>("/bonds/grain_a"), b = file_.read<std::int32_t>("/bonds/grain_b");
+    std::map<IdPair, int> seen;
+    for (std::size_t row = 0; row < a.size(); ++row) {
+        const IdPair pair = std::minmax({a[row], b.at(row)});
+        bond_rows_.emplace(std::tuple{pair.first, pair.second, seen[pair]++}, row);
     }
+    // those of the file are written over in place
     bonds_.failure_time.write({0}, {now_.bond_failure.size()}, now_.bond_failure);
     bonds_.cause.write({0}, {now_.bond_cause.size()}, now_.bond_cause);
     file_.start_live();
-    file_.sync();
-    commit_file(path);
 }
 
 template <class Visit>
@@ -133,15 +126,24 @@ void Hdf5Results::for_each_dataset(Visit&& visit)
     }
 }
 
+std::vector<std::int64_t> Hdf5Results::extents()
+{
+    std::vector<std::int64_t> all;
+    for_each_dataset([&](const Hdf5Growing& dataset) {
+        for (const hsize_t n : dataset.extents()) all.push_back(static_cast<std::int64_t>(n));
+    });
+    return all;
+}
+
 Hdf5Mark Hdf5Results::mark()
 {
     file_.sync();
     sync_file(file_.path());
+    for_each_dataset([&](Hdf5Growing& dataset) { dataset.add_new_chunks(chunks_); });
+    merge_ranges(chunks_);
     Hdf5Mark m = now_;
-    m.extents.clear();
-    for_each_dataset([&](const Hdf5Growing& dataset) {
-        for (const hsize_t n : dataset.extents()) m.extents.push_back(static_cast<std::int64_t>(n));
-    });
+    m.skeleton = take_skeleton(file_.path(), chunks_);
+    m.extents = extents();
     return m;
 }
 

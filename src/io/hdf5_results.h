@@ -23,7 +23,7 @@ inline constexpr std::int64_t results_schema = 2;
 class Hdf5Results {
 public:
     Hdf5Results(const std::filesystem::path& path, const RunFacts& facts);
-    /// Goes on from `mark`: what came later is left out. The old file is replaced when the new one is whole.
+    /// Goes on from `mark`: the file becomes what it was then. Broken off, it can be done again.
     Hdf5Results(const std::filesystem::path& path, const RunFacts& facts, const Hdf5Mark& mark);
 
     /// Everything so far is on disk when this returns.
@@ -60,6 +60,7 @@ private:
 
     template <class Visit>
     void for_each_dataset(Visit&& visit);
+    std::vector<std::int64_t> extents();
 
     Hdf5File file_;
     Hdf5Growing history_;
@@ -77,7 +78,8 @@ private:
     Table clusters_, fragments_;
     std::unordered_map<std::int32_t, hsize_t> grain_rows_;
     std::map<std::tuple<std::int32_t, std::int32_t, int>, hsize_t> bond_rows_;  // ids of the grains, number in the pair
-    Hdf5Mark now_;                                                              // but for the extents
+    std::vector<FileRange> chunks_;  // where in the file the data is, as far as known at the last mark
+    Hdf5Mark now_;                   // but for what is looked up in the file
 };
 
 }  // namespace grainfrac

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/isolated_read.h"
 
+#include "io/atomic_file.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -65,19 +67,6 @@ void set_limits(const std::filesystem::path& file)
     if (limits_memory) limit(RLIMIT_DATA, held_data() + base_memory + memory_factor * bytes);
 }
 
-bool write_all(int fd, const void* data, std::size_t size)
-{
-    const char* at = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t n = ::write(fd, at, size);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return false;
-        at += n;
-        size -= static_cast<std::size_t>(n);
-    }
-    return true;
-}
-
 /// Everything until the writer closes its end.
 std::string read_all(int fd)
 {
@@ -97,16 +86,18 @@ std::string read_all(int fd)
     for (const int s : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM}) std::signal(s, SIG_DFL);
     set_limits(file);
     Outcome outcome = Outcome::message;
+    const std::string_view head(reinterpret_cast<const char*>(&outcome), 1);
     try {
         const std::vector<Ball> balls = reader(file);
         outcome = Outcome::balls;
-        _exit(write_all(fd, &outcome, 1) && write_all(fd, balls.data(), balls.size() * sizeof(Ball)) ? 0 : 1);
+        const std::string_view bytes(reinterpret_cast<const char*>(balls.data()), balls.size() * sizeof(Ball));
+        _exit(write_all(fd, head) && write_all(fd, bytes) ? 0 : 1);
     } catch (const std::bad_alloc&) {
         outcome = Outcome::no_memory;
-        write_all(fd, &outcome, 1);
+        write_all(fd, head);
     } catch (const std::exception& e) {
-        write_all(fd, &outcome, 1);
-        write_all(fd, e.what(), std::strlen(e.what()));
+        write_all(fd, head);
+        write_all(fd, e.what());
     }
     _exit(0);
 }

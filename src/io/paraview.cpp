@@ -568,4 +568,18 @@ ParaviewSeries::ParaviewSeries(std::filesystem::path folder, const ParaviewMark&
     }
 }
 
+std::vector<std::string> missing_frames(const std::filesystem::path& folder, const ParaviewMark& mark)
+{
+    std::vector<std::string> missing;
+    const std::string_view before = " file=\"";
+    for (const auto& [kind, lines] : mark.entries) {
+        for (auto at = lines.find(before); at != lines.npos; at = lines.find(before, at)) {
+            at += before.size();
+            const std::string file = lines.substr(at, lines.find('"', at) - at);
+            if (!std::filesystem::is_regular_file(folder / file)) missing.push_back(file);
+        }
+    }
+    return missing;
+}
+
 }  // namespace grainfrac

@@ -40,6 +40,9 @@ struct ParaviewMark {
     std::int64_t frame = 0;
 };
 
+/// Files of the series that are not there.
+std::vector<std::string> missing_frames(const std::filesystem::path& folder, const ParaviewMark& mark);
+
 /// The folder with its series, one frame after another.
 class ParaviewSeries {
 public:

@@ -16,6 +16,7 @@
 #endif
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -220,15 +221,15 @@ void ResultFolder::go_on(const RunFacts& facts, const std::string& resolved_toml
     const fs::path& folder = impl_->folder;
     for (const char* part : {"paraview", "plots", "checkpoint"}) fs::create_directories(folder / part);
     // nothing is changed before it is known that all can go on
-    check_head(folder / "history.csv", mark.history);
-    if (mark.walls) check_head(folder / "walls.csv", *mark.walls);
-    if (mark.pull_out) check_heads(folder, *mark.pull_out);
     try {
+        check_head(folder / "history.csv", mark.history);
+        if (mark.walls) check_head(folder / "walls.csv", *mark.walls);
+        if (mark.pull_out) check_heads(folder, *mark.pull_out);
+        if (const std::string why = why_not_of(folder / "results.h5", mark.results.skeleton); !why.empty())
+            throw std::runtime_error((folder / "results.h5").string() + ": " + why);
         impl_->table.emplace(folder / "results.h5", facts, mark.results);
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(aside(folder / "results.h5"), ignored);
-        throw;
+    } catch (const std::runtime_error& e) {
+        throw CheckpointError(e.what());  // the one before may know less of them, or they may be of another run
     }
     // written at an end that is none any more; the first of them tells that a run has ended
     for (const char* file : {"summary.json", "fragments.csv", "clusters.csv"}) fs::remove(folder / file);
@@ -246,6 +247,10 @@ void ResultFolder::go_on(const RunFacts& facts, const std::string& resolved_toml
         for (const char* file : {"pull_out.csv", "profiles.csv"}) fs::remove(folder / file);
 #ifdef GF_HAVE_VTK
     impl_->paraview.emplace(folder / "paraview", ParaviewMark{mark.series, mark.frame});
+    if (const std::vector<std::string> missing = missing_frames(folder / "paraview", impl_->paraview->mark());
+        !missing.empty())
+        spdlog::warn("{}: {} files of the series are missing, the first of them {}; they are not made anew",
+                     (folder / "paraview").string(), missing.size(), missing.front());
     write_file(folder / "paraview" / "view.py", view_script());
 #endif
     for (const char* part : {"", "checkpoint", "paraview"}) {  // files of a killed run that never got whole

@@ -157,7 +157,7 @@ public:
     /// How much of the growing files there is; all of it is on disk when this returns.
     FolderMark mark();
     /// Instead of begin(): the growing files are cut back to the mark and go on from there; what an earlier end left is
-    /// removed. Throws std::runtime_error if a file holds less than the mark says, or something else.
+    /// removed. Throws CheckpointError if a file holds less than the mark says, or something else.
     void go_on(const RunFacts& facts, const std::string& resolved_toml, const FolderMark& mark,
                const std::vector<double>& profiles_at);
     /// summary.json (text made by the caller), fragments.csv, clusters.csv, plots/*, the tables of results.h5.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/validate.h"
 
+#include "model/checksum.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -52,11 +54,7 @@ std::string bonds_problem(const char* kind, const Bonds& bonds, int bodies)
 
 class Fnv {
 public:
-    void add(const void* data, std::size_t bytes)
-    {
-        const auto* p = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < bytes; ++i) hash_ = (hash_ ^ p[i]) * 1099511628211ULL;
-    }
+    void add(const void* data, std::size_t bytes) { hash_ = checksum(data, bytes, hash_); }
     template <class T>
     void add(const Buffer<T>& buffer)
     {
@@ -65,7 +63,7 @@ public:
     std::uint64_t value() const { return hash_; }
 
 private:
-    std::uint64_t hash_ = 14695981039346656037ULL;
+    std::uint64_t hash_ = no_bytes_checksum;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "experiment/experiment.h"
 #include "io/atomic_file.h"
 #include "io/input.h"
+#include "model/checksum.h"
 #include "model/validate.h"
 #include "scratch_file.h"
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <thread>
 
 using namespace program_test;
@@ -159,6 +160,54 @@ TEST_CASE("SIGTERM and SIGINT stop with a checkpoint, SIGUSR1 makes one and the 
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     CHECK(checkpoints(w.folder / "out").size() == 2);
     CHECK(child.wait() == 0);
+}
+
+TEST_CASE("a second SIGINT ends a run at once that cannot end by itself, and its checkpoint is there")
+{
+    const Workplace w;
+    const Scene scene = spheres(100);
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    {
+        Child child(w, run_arguments(w, scene, "out"));
+        wait_for_rows(child, w.folder / "out/history.csv", 40);
+        // the end of the run hangs at a pipe that nobody reads
+        REQUIRE(::mkfifo((w.folder / "out/summary.json.tmp").c_str(), 0600) == 0);
+        child.send(SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        child.send(SIGINT);  // the same wish, passed on twice
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+        REQUIRE(child.running());
+        child.send(SIGINT);
+        CHECK(child.wait() == 130);
+    }
+    CHECK_FALSE(fs::exists(w.folder / "out/summary.json"));
+    CHECK(resume(w, "out") == 0);
+    const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+    INFO(listed(found) << said(w));
+    CHECK(found.empty());
+}
+
+TEST_CASE("results.h5 that a power failure left in pieces is made whole from the checkpoint")
+{
+    const Workplace w;
+    const Scene scene = spheres(100);
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    run_and_kill(w, scene, "out", 70);
+    {
+        std::fstream file(w.folder / "out/results.h5", std::ios::binary | std::ios::in | std::ios::out);
+        file << std::string(4096, '\0');  // superblock and first headers
+    }
+    const fs::path frame = "paraview/spheres_000000.vtp";
+    const bool with_frames = fs::remove(w.folder / "out" / frame);  // else built without VTK
+    const Outcome o = w.run("resume out --no-report --threads 1");
+    CHECK(o.code == 0);
+    if (with_frames) {
+        CHECK(o.err.find("1 files of the series are missing, the first of them spheres_0") != std::string::npos);
+        fs::copy(w.folder / "whole" / frame, w.folder / "out" / frame);
+    }
+    const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+    INFO(listed(found) << said(w));
+    CHECK(found.empty());
 }
 
 TEST_CASE("history.csv and results.h5 are read while the run goes on")
@@ -406,6 +455,39 @@ TEST_CASE("a damaged checkpoint is told, the one before is used, and the bits ar
     CHECK(resume(w, "out") == 1);
     CHECK(said(w).find("is cut short") != std::string::npos);
     CHECK(said(w).find("holds no checkpoint that can be gone on from") != std::string::npos);
+}
+
+TEST_CASE("a checkpoint that does not fit the files of its folder is told, and the one before is used")
+{
+    const Workplace w;
+    const Scene scene = spheres(100);
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    run_and_kill(w, scene, "out", 70);
+    const std::vector<fs::path> there = checkpoints(w.folder / "out");
+    const auto step = [](const fs::path& p) { return std::stol(p.stem().string().substr(5)); };
+    const fs::path history = w.folder / "out/history.csv";
+    std::string text = text_of(history);
+    bool altered = false;
+    for (const std::string& row : history_rows(history)) {  // one that only the newer of them knows
+        const long at = std::stol(row);
+        if (altered || at <= step(there.at(1)) || at > step(there.at(0))) continue;
+        char& last = text[text.find(row) + row.size() - 1];
+        last = last == '1' ? '2' : '1';
+        altered = true;
+    }
+    REQUIRE(altered);
+    std::ofstream(history) << text;
+    CHECK(resume(w, "out") == 0);
+    CHECK(said(w).find(there.at(0).filename().string() + ": does not fit the folder: out/history.csv: was altered") !=
+          std::string::npos);
+    const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+    INFO(listed(found) << said(w));
+    CHECK(found.empty());
+    // a run that has ended says so, also without any checkpoint
+    for (const fs::path& checkpoint : checkpoints(w.folder / "out")) fs::remove(checkpoint);
+    const Outcome ended = w.run("resume out");
+    CHECK(ended.code == 0);
+    CHECK(ended.out.find("the run has ended") != std::string::npos);
 }
 
 TEST_CASE("a full disk: a reason, what was written is readable, and with room the run goes on", "[slow]")

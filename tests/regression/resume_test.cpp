@@ -119,14 +119,17 @@ TEST_CASE("a row of equilibria that was told to stop in a relaxation ends with t
     CHECK(found.empty());
 }
 
-// tests/robustness/kill_test asks for this; GF_KILLS: number of kills of each scene.
+// tests/robustness/kill_test asks for this; GF_KILLS: number of kills of each scene; GF_SCENE: one of them, from 0.
 TEST_CASE("killed and resumed many times", "[.kill]")
 {
     const char* wanted = std::getenv("GF_KILLS");
     const int kills = wanted != nullptr ? std::atoi(wanted) : 50;
-    unsigned seed = 1;
+    const char* only = std::getenv("GF_SCENE");
+    unsigned seed = 0;
     for (const Scene& scene : {cleaving_disc(200), column_of_stages(2000), fibre(1), spheres(100)}) {
-        const Tally t = kill_and_resume(scene, kills, 1, seed++);
+        ++seed;
+        if (only != nullptr && static_cast<unsigned>(std::atoi(only)) + 1 != seed) continue;
+        const Tally t = kill_and_resume(scene, kills, 1, seed);
         std::printf(
             "%s: %d kills, %d of them with a file half written, %d before the first checkpoint; %d of %d runs "
             "with the same bits\n",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // results.h5, also while it grows, and checkpoints.
+#include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "io/hdf5_results.h"
 #include "sample.h"
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <random>
 
 using namespace grainfrac;
 
@@ -131,6 +133,131 @@ TEST_CASE("results.h5 is read while it is written", "[output][hdf5]")
     results.append_snapshot(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
     CHECK(read_in_another_process(folder / "results.h5", "live reader of results.h5") == 0);
     results.close();
+}
+
+namespace {
+
+/// What a disk may hold after a power failure: pages of 512 B written since `synced`, each new or still as it was; the
+/// end perhaps never written (zeros) or never added.
+std::string after_power_failure(const std::string& synced, const std::vector<std::string>& later, std::mt19937& random)
+{
+    constexpr std::size_t page = 512;
+    std::string disk = later[random() % later.size()];
+    for (std::size_t at = 0; at < disk.size(); at += page) {
+        const std::string& version = later[random() % later.size()];
+        const bool old = random() % 2 == 0;
+        for (std::size_t i = at; i < std::min(at + page, disk.size()); ++i) {
+            if (old)
+                disk[i] = i < synced.size() ? synced[i] : '\0';
+            else if (i < version.size())
+                disk[i] = version[i];
+        }
+    }
+    if (random() % 2 == 0) disk.resize(synced.size() + random() % (disk.size() - synced.size() + 1));
+    return disk;
+}
+
+struct Contents {
+    std::vector<double> history, position, failure, cluster_time, damage;
+    std::vector<std::int32_t> grain_id, cause, bond_a;
+    bool operator==(const Contents& o) const
+    {
+        const auto same = [](const auto& a, const auto& b) {  // NaN too
+            return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+        };
+        return same(history, o.history) && same(position, o.position) && same(failure, o.failure) &&
+               same(cluster_time, o.cluster_time) && same(damage, o.damage) && same(grain_id, o.grain_id) &&
+               same(cause, o.cause) && same(bond_a, o.bond_a);
+    }
+};
+
+Contents contents(const std::filesystem::path& path)
+{
+    const Hdf5File f = Hdf5File::open(path);
+    return {f.read<double>("/history"),
+            f.read<double>("/snapshots/position"),
+            f.read<double>("/bonds/failure_time"),
+            f.read<double>("/clusters/time"),
+            f.read<double>("/snapshots/damage"),
+            f.read<std::int32_t>("/snapshots/grain_id"),
+            f.read<std::int32_t>("/bonds/cause"),
+            f.read<std::int32_t>("/bonds/grain_a")};
+}
+
+}  // namespace
+
+TEST_CASE("results.h5 goes on after a power failure", "[output][hdf5]")
+{
+    sample::World w = sample::make_world();
+    sample::add_parallel_bond(w.state);
+    const sample::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "results.h5";
+    int row = 0;
+    const auto write_part = [&](Hdf5Results& r, sample::World& world) {  // rows, a bond that breaks, a new grain
+        for (int k = 0; k < 8; ++k) r.append_history(sample::history_row(row++));
+        ++world.state.step;
+        world.state.time += 1e-6;
+        r.append_snapshot(world.model, world.state, world.fields, collect_cracks(world.model, world.state));
+    };
+    const auto change = [](sample::World& world) {
+        world.state.interfaces.damage.host()[1] = 1.0;
+        world.state.interfaces.failure_time.host()[1] = world.state.time + 1e-7;
+        world.state.bodies.id.host()[0] = 7;
+    };
+    const auto finish = [&](Hdf5Results& r, sample::World& world) {
+        change(world);
+        for (int k = 0; k < 12; ++k) write_part(r, world);
+        r.finish(world.model, world.state, world.fields, collect_cracks(world.model, world.state));
+        r.close();
+    };
+    Hdf5Mark mark;
+    std::string synced;
+    std::vector<std::string> later;
+    sample::World at_mark;
+    int row_at_mark = 0;
+    {
+        Hdf5Results r(file, sample::facts());
+        for (int k = 0; k < 40; ++k) write_part(r, w);
+        (void)r.mark();  // an earlier checkpoint
+        for (int k = 0; k < 15; ++k) write_part(r, w);
+        mark = r.mark();
+        synced = read_file(file);
+        at_mark = w;
+        row_at_mark = row;
+        change(w);
+        for (int k = 0; k < 12; ++k) {
+            write_part(r, w);
+            later.push_back(read_file(file));
+        }
+        r.finish(w.model, w.state, w.fields, collect_cracks(w.model, w.state));
+        r.close();
+    }
+    const Contents whole = contents(file);
+    CHECK(mark.skeleton.bytes.size() < synced.size());
+    std::mt19937 random(3);
+    for (int k = 0; k < 50; ++k) {
+        {
+            std::ofstream out(file, std::ios::binary);
+            out << after_power_failure(synced, later, random);
+        }
+        row = row_at_mark;
+        sample::World again = at_mark;
+        INFO("sample " << k);
+        {
+            Hdf5Results r(file, sample::facts(), mark);
+            if (k % 3 == 0) (void)r.mark();
+            finish(r, again);
+        }
+        REQUIRE(contents(file) == whole);
+    }
+    // going on is broken off by another failure, at the same checkpoint
+    {
+        Hdf5Results r(file, sample::facts(), mark);
+        write_part(r, at_mark);
+    }
+    CHECK(why_not_of(file, mark.skeleton).empty());
+    std::filesystem::resize_file(file, static_cast<std::uintmax_t>(mark.skeleton.length) - 1);
+    CHECK(why_not_of(file, mark.skeleton) == "holds less than at the checkpoint");
 }
 
 TEST_CASE("results.h5 holds what was appended", "[output][hdf5]")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/input_schema.h"
+#include "io/input_facts.h"
 
 #include <fmt/format.h>
 
