@@ -48,7 +48,7 @@ GF_FN void clip(FlatPolygon& p, double c0, double cx, double cy, double toleranc
     bool cut = false;
     for (int i = 0; i < p.count; ++i) {
         h[i] = c0 + cx * p.x[i] + cy * p.y[i];
-        cut = cut || h[i] <= tolerance;
+        cut = cut || !(h[i] > tolerance);
     }
     if (!cut) return;
     FlatPolygon kept;

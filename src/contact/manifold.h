@@ -384,6 +384,23 @@ GF_FN ContactPoint ball_contact(const ContactBody& a, const ContactBody& b, cons
     return c;
 }
 
+/// Numbers of the pairs of features that count, for the second pass over them; if there were more than it holds, that
+/// one goes over all pairs again.
+template <int room>
+struct KeptPairs {
+    std::int16_t kept[room];
+    int count = 0, at_first = -1;
+
+    GF_FN void add(int k)
+    {
+        if (count == 0) at_first = k;
+        if (count < room) kept[count] = static_cast<std::int16_t>(k);
+        ++count;
+    }
+    GF_FN int to_visit(int all) const { return count <= room ? count : all; }
+    GF_FN int at(int k) const { return count <= room ? kept[k] : k; }
+};
+
 /// (1 - x)^2 below 1, and its slope.
 GF_FN double fade(double x, double& slope)
 {
@@ -475,13 +492,13 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
     const int pairs = faces_a.count * faces_b.count, rods = rod_a ? faces_b.count : rod_b ? faces_a.count : 0;
     OverlapMoments faces, lines;
     FacePair first, other;  // the first that overlap are mostly the only ones
-    int overlapping[FacingFaces::room * FacingFaces::room], found = 0;
+    KeptPairs<32> overlapping;
     for (int k = 0; k < pairs; ++k) {
-        FacePair& o = found == 0 ? first : other;
+        FacePair& o = overlapping.count == 0 ? first : other;
         find(k, o);
         if (o.total <= 0.0) continue;
         faces.add(o.m, o.weight);
-        overlapping[found++] = k;
+        overlapping.add(k);
     }
     const PressedArea pressed(faces, A_ref);
     if (pressed.rest > 0.0) {
@@ -493,21 +510,21 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
     const auto edge_pair = [&](int k) {
         return edge_overlap(edges_a[k / edges_b.count], edges_b[k % edges_b.count], radii);
     };
-    constexpr int most_edge_pairs = 16;  // one or two are usual
-    int side_by_side[most_edge_pairs], beside = 0;
-    for (int k = 0; k < edges_a.count * edges_b.count && beside < most_edge_pairs; ++k) {
+    KeptPairs<16> side_by_side;  // one or two are usual
+    for (int k = 0; k < edges_a.count * edges_b.count; ++k) {
         EdgeOverlap o = edge_pair(k);
         if (o.weight <= 0.0) continue;
         lines.add(o.moments(), o.weight);
-        side_by_side[beside++] = k;
+        side_by_side.add(k);
     }
 
     const Potential p(faces, pressed, lines, A_ref, g_p);
     Wrench w;  // on b, about `middle`
-    if (found > 0) w.add(first.wrench(p.by_faces), 1.0);
-    for (int k = 1; k < found; ++k) {
-        find(overlapping[k], other);
-        w.add(other.wrench(p.by_faces), 1.0);
+    if (overlapping.count > 0) w.add(first.wrench(p.by_faces), 1.0);
+    for (int k = 0; overlapping.count > 1 && k < overlapping.to_visit(pairs); ++k) {
+        if (overlapping.at(k) == overlapping.at_first) continue;
+        find(overlapping.at(k), other);
+        if (other.total > 0.0) w.add(other.wrench(p.by_faces), 1.0);
     }
     if (lines.V > 0.0) {
         for (int k = 0; k < rods; ++k) {
@@ -515,8 +532,9 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
             o.moments();
             w.add(o.wrench(p.by_lines), rod_b ? 1.0 : -1.0);
         }
-        for (int k = 0; k < beside; ++k) {
-            EdgeOverlap o = edge_pair(side_by_side[k]);
+        for (int k = 0; k < side_by_side.to_visit(edges_a.count * edges_b.count); ++k) {
+            EdgeOverlap o = edge_pair(side_by_side.at(k));
+            if (o.weight <= 0.0) continue;
             const OverlapMoments m = o.moments();
             w.add(o.wrench(p.by_lines, m), 1.0);
         }

@@ -77,7 +77,7 @@ PullOutPath::PullOutPath(const PullOut& pull_out, const PathSettings& settings, 
 }
 
 /// All displacements and turns since the start by a factor; grips too.
-void PullOutPath::scale(State& state, double factor)
+void PullOutPath::scale(const Model& model, State& state, double factor)
 {
     Bodies& b = state.bodies;
     double farthest = 0.0;
@@ -85,10 +85,11 @@ void PullOutPath::scale(State& state, double factor)
     auto& orientation = b.orientation.host();
     for (int i = 0; i < b.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
-        farthest = std::max(farthest, norm(position[k] - b.start_position[i]));
+        const Vec3 way = position[k] - b.start_position[i];
         position[k] = b.start_position[i] + factor * (position[k] - b.start_position[i]);
-        const Vec3 turn = factor * rotation_vector(orientation[k] * conjugate(b.start_orientation[i]));
+        const Vec3 turned = rotation_vector(orientation[k] * conjugate(b.start_orientation[i])), turn = factor * turned;
         const double angle = norm(turn);
+        farthest = std::max(farthest, norm(way) + norm(turned) * model.shapes.bounding_radius[b.shape[i]]);
         orientation[k] = angle > 0.0 ? normalized(from_axis_angle(turn / angle, angle) * b.start_orientation[i])
                                      : b.start_orientation[i];
     }
@@ -201,7 +202,7 @@ PullOutPath::Found PullOutPath::to_softening(Model& model, State& state, const s
     for (int k = 0; k < most_scalings; ++k) {
         const double factor = factor_to_softening(model, state, interfaces);
         if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface) return Found::equilibrium;
-        scale(state, factor);
+        scale(model, state, factor);
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
     }
     return Found::not_softening;
@@ -230,7 +231,7 @@ PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, c
             before = missing;
             moved = move;
             const Ledger held = energy_ledger(model, state);
-            scale(state, 1.0 + move);
+            scale(model, state, 1.0 + move);
             book_move(model, state, held);
         }
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
@@ -245,7 +246,7 @@ void PullOutPath::go_on(Model& model, State& state, const std::vector<int>& inte
     const double half = std::sqrt(factor);
     const auto move = [&] {
         const Ledger before = energy_ledger(model, state);
-        scale(state, half);
+        scale(model, state, half);
         book_move(model, state, before);
     };
     move();
@@ -330,7 +331,7 @@ PullOutPath::Found PullOutPath::next_event(Model& model, State& state, const std
         return to_softening(model, state, interrupted);
     }
     const double half = std::sqrt(1.0 + overshoot(model, state, interfaces, surface, next_damage(now)));
-    scale(state, surface * half);  // at rest still, but for what turned
+    scale(model, state, surface * half);  // at rest still, but for what turned
     book_scaling(state, surface * half);
     soften(model, state, interfaces, half);
     if (!relax(model, state, interrupted)) return Found::not_at_rest;
@@ -351,7 +352,7 @@ PullOutPath::Found PullOutPath::balance(Model& model, State& state, const std::v
     const double now = mean_damage(state, interfaces);
     if (rubs(model, state, interfaces) || 1.0 - now < nothing_left) return Found::equilibrium;
     const double reach = 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now));
-    scale(state, factor_to_balance(model, state, interfaces, reach));
+    scale(model, state, factor_to_balance(model, state, interfaces, reach));
     return relax(model, state, interrupted) ? Found::equilibrium : Found::not_at_rest;
 }
 

@@ -61,7 +61,7 @@ private:
     double next_damage(double now) const;
     void go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor);
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
-    void scale(State& state, double factor);
+    void scale(const Model& model, State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
     void shorten(State& state);
     void book_move(Model& model, State& state, const Ledger& before);

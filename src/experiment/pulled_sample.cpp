@@ -164,12 +164,15 @@ PulledSample::PulledSample(Model& model, State& state, int axis) : model_(model)
 void PulledSample::move_by(double axial, double lateral)
 {
     Bodies& b = state_.bodies;
+    double farthest = 0.0;
     for (int i = 0; i < b.size(); ++i) {
-        Vec3 x = b.position[i];
+        Vec3 way;
         const Vec3 from = b.start_position[i];
-        for (int k = 0; k < 3; ++k) x[k] += (k == axis_ ? axial * (from[k] - middle_) : lateral * from[k]);
-        b.position.at(i) = x;
+        for (int k = 0; k < 3; ++k) way[k] = k == axis_ ? axial * (from[k] - middle_) : lateral * from[k];
+        b.position.at(i) += way;
+        farthest = std::max(farthest, norm(way));
     }
+    state_.travel += farthest;  // what was apart may have met
 }
 
 Relaxed PulledSample::stretch_to(double strain, double poisson_ratio, double largest)

@@ -20,8 +20,12 @@ std::vector<OldContact> take_contacts(State& state, const std::vector<Parting>& 
         if (!concerned || c.active[i] != 1) continue;
         old.push_back({c.a[i], c.b[i], c.normal_force[i] - c.viscous_force[i], c.shear_force[i]});
         state.past_contacts.inserted_work -= c.stored_energy[i];
-        c.stored_energy.at(i) = c.viscous_force.at(i) = 0.0;
         c.active.at(i) = 0;
+        c.shear_force.at(i) = {};
+        for (Buffer<double>* history : {&c.stored_energy, &c.viscous_force, &c.twist_moment, &c.max_overlap,
+                                        &c.offset_overlap, &c.normal_force, &c.shear_stiffness, &c.twist_stiffness})
+            history->at(i) = 0.0;
+        c.stiffness_scale.at(i) = 1.0;
     }
     return old;
 }

@@ -92,7 +92,7 @@ void make_bodies(Model& model, State& state, Parting& p, const CutResult& cut)
 /// Forces of all slots, before the arrays are sorted anew.
 struct OldSlots {
     std::vector<Vec3> force, torque_a, torque_b;
-    int interfaces = 0, bonds = 0;
+    int interfaces = 0;
 };
 
 OldSlots slots_now(const State& state)
@@ -103,7 +103,6 @@ OldSlots slots_now(const State& state)
     old.torque_a = s.torque_a.host();
     old.torque_b = s.torque_b.host();
     old.interfaces = state.interfaces.size();
-    old.bonds = state.bond_slots();
     return old;
 }
 

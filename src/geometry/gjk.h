@@ -203,8 +203,9 @@ GF_FN ClosestPoints closest_points(const PlacedCore& core_a, const PlacedCore& c
         return Corner{pb - pa, pa, pb, 1.0, i, j};
     };
     const auto corner = [&](const Vec3& direction) { return between(a.support(direction), b.support(-direction)); };
+    const auto known_vertex = [](int i, const PlacedCore& core) { return i >= 0 && i < core.count; };
     for (int i = 0; i < corners.count; ++i) {
-        if (corners.a[i] < core_a.count && corners.b[i] < core_b.count)
+        if (known_vertex(corners.a[i], core_a) && known_vertex(corners.b[i], core_b))
             s.corner[s.count++] = between(corners.a[i], corners.b[i]);
     }
     corners.count = 0;
