@@ -20,6 +20,7 @@ struct FlatPolygon {
     /// What is in use only: the room is for the worst case.
     GF_FN FlatPolygon& operator=(const FlatPolygon& p)
     {
+        if (this == &p) return *this;
         for (int i = 0; i < p.count; ++i) {
             x[i] = p.x[i];
             y[i] = p.y[i];
