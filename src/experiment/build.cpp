@@ -232,8 +232,11 @@ Built build(const Case& c, Device device)
 
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     built.experiment.quasi_static_speed = quasi_static_speed(c, model);
-    if (const std::string why = why_not_valid(model, state); !why.empty())
+    if (const std::string why = why_not_valid(model, state); !why.empty()) {
+        if (why.find("not finite") != std::string::npos)
+            throw InputError("parts", fmt::format("{}: density, sizes or speeds are beyond what a number holds", why));
         throw std::logic_error("built an impossible state: " + why);
+    }
     check_nothing_overlaps(c, model, state);
     return built;
 }
