@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/QR>
+#include <Eigen/SparseCore>
 
 #include <complex>
 

@@ -2,6 +2,7 @@
 // Crystals, boundary energy, Weibull scatter, random numbers.
 #include "fracture/clusters.h"
 #include "generate/crystal.h"
+#include "model/random.h"
 #include "support/assembly.h"
 
 using namespace grainfrac;
