@@ -52,9 +52,9 @@ struct ContactResponse {
 GF_FN Vec3 turn_with_contact(const Vec3& f, const Vec3& n_old, const Vec3& n, double spin)
 {
     const Vec3 w = cross(n_old, n);
-    const double c = 1.0 + dot(n_old, n);
-    const Vec3 wf = cross(w, f);
-    const Vec3 tilted = c > 1e-6 ? f + wf + cross(w, wf) * (1.0 / c) : f;
+    const double c = 1.0 + dot(n_old, n), carried = c > 1e-6 ? 1.0 : 0.0;  // opposite normals: nothing to follow
+    const Vec3 wf = carried * cross(w, f);
+    const Vec3 tilted = f + wf + cross(w, wf) * (c > 1e-6 ? 1.0 / c : 0.0);
     // exact for the angle 2 atan(spin/2), which differs from spin by its cube/12: no length is lost
     const double t = 0.5 * spin;
     const Vec3 nf = cross(n, tilted);

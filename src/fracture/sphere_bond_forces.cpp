@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fracture/bond_forces.h"
+#include "fracture/sphere_bond_action.h"
 #include "gpu/parallel.h"
 #include "model/views.h"
 
@@ -41,78 +42,122 @@ struct SphereBondForces {
         if (slot.dyad_a.size > 0) slot.dyad_a[s] = slot.dyad_b[s] = Mat3{};
     }
 
-    GF_FN void operator()(int i) const
+    template <bool incremental, bool damped>
+    GF_FN SphereBondReading<incremental, damped> read(int i) const
     {
-        const int s = first_slot + i, A = a[i], B = b[i];
-        if (cause[i] != static_cast<int>(BondCause::whole)) {
-            clear(i, s);
-            return;
-        }
-        const SphereBondLaw l = laws[law[i]];
-        const Vec3 branch = body.position[B] - body.position[A];
-        BondGeometry g;
-        g.length = norm(branch);
-        g.e = branch * (1.0 / g.length);
-        g.rest = length[i];
-        g.share = share[i];
-        const BondSprings k{normal_stiffness[i], shear_stiffness[i], bending_stiffness[i], twist_stiffness[i]};
-        const bool damped = l.damping > 0.0 && dashpots_active;
-
-        // of b against a at the contact point, at mid step like the velocities: with the branch of the end of the step
-        // a turning pair would seem to stretch, and a stretching one to slide
-        Vec3 velocity, relative_spin, mean_spin, middle;
-        if (damped || l.incremental) {
-            const Vec3 wa = body.angular_velocity[A], wb = body.angular_velocity[B];
-            const Vec3 apart = body.velocity[B] - body.velocity[A];
-            const Vec3 half = branch - (0.5 * dt) * apart;
-            velocity = apart - cross((1.0 - g.share) * wb + g.share * wa, half);
-            middle = normalized(half);
-            relative_spin = wb - wa;
-            mean_spin = 0.5 * (wa + wb);
-        }
-        BondAction r;
-        if (l.incremental) {
-            BondHistory h{shear_force[i], moment[i], twist[i], normal[i]};
-            r = incremental_bond(g, k, velocity, relative_spin, mean_spin, dt, h);
-            shear_force[i] = h.shear_force;
-            moment[i] = h.moment;
-            twist[i] = h.twist;
-            normal[i] = h.normal;
+        const int A = a[i], B = b[i];
+        SphereBondReading<incremental, damped> x;
+        x.branch = body.position[B] - body.position[A];
+        x.share = share[i];
+        x.rest = length[i];
+        x.k = {normal_stiffness[i], shear_stiffness[i], bending_stiffness[i], twist_stiffness[i]};
+        if constexpr (incremental) {
+            x.history = {shear_force[i], moment[i], twist[i], normal[i]};
         } else {
-            const Quat qa = body.orientation[A];
-            r = total_bond(g, k, rotate(qa, axis_a[i]), body.orientation[B] * conjugate(qa * turn[i]));
+            x.orientation_a = body.orientation[A];
+            x.orientation_b = body.orientation[B];
+            x.turn = turn[i];
+            x.axis_a = axis_a[i];
         }
-        const Vec3 elastic_force = r.force, elastic_moment = r.moment;
-        if (damped) {
-            const BondMasses m(g, body.inverse_mass[A], body.inverse_mass[B], body.inverse_inertia[A].x,
-                               body.inverse_inertia[B].x);
-            const BondDashpots c(l.damping, k, m);
-            const Vec3 v_n = dot(velocity, middle) * middle, w_n = dot(relative_spin, middle) * middle;
-            const Vec3 drag = -c.normal * v_n - c.shear * (velocity - v_n);
-            const Vec3 brake = -c.twist * w_n - c.bending * (relative_spin - w_n);
-            viscous_work[i] -=
-                0.5 * dt * (dot(viscous_force[i] + drag, velocity) + dot(viscous_moment[i] + brake, relative_spin));
-            viscous_force[i] = drag;
-            viscous_moment[i] = brake;
-            r.force += drag;
-            r.moment += brake;
+        if constexpr (incremental || damped) {
+            x.apart = body.velocity[B] - body.velocity[A];
+            x.spin_a = body.angular_velocity[A];
+            x.spin_b = body.angular_velocity[B];
         }
-        stored_energy[i] = r.stored;
-        slot.force[s] = r.force;
-        slot.torque_a[s] = -(cross(g.arm_a() * g.e, r.force) + r.moment);
-        slot.torque_b[s] = r.moment - cross(g.arm_b() * g.e, r.force);
+        if constexpr (damped) {
+            x.inverse_mass_a = body.inverse_mass[A];
+            x.inverse_mass_b = body.inverse_mass[B];
+            x.inverse_inertia_a = body.inverse_inertia[A].x;
+            x.inverse_inertia_b = body.inverse_inertia[B].x;
+            x.viscous_force = viscous_force[i];
+            x.viscous_moment = viscous_moment[i];
+        }
+        return x;
+    }
+
+    template <bool incremental, bool damped>
+    GF_FN void write(int i, const SphereBondLaw& l, const SphereBondWriting<incremental, damped>& w) const
+    {
+        const int s = first_slot + i;
+        if constexpr (incremental) {
+            shear_force[i] = w.history.shear_force;
+            moment[i] = w.history.moment;
+            twist[i] = w.history.twist;
+            normal[i] = w.history.normal;
+        }
+        if constexpr (damped) {
+            viscous_work[i] += w.viscous_work;
+            viscous_force[i] = w.viscous_force;
+            viscous_moment[i] = w.viscous_moment;
+        }
+        stored_energy[i] = w.stored;
+        slot.force[s] = w.force;
+        slot.torque_a[s] = w.torque_a;
+        slot.torque_b[s] = w.torque_b;
         if (slot.dyad_a.size > 0) {
-            slot.dyad_a[s] = Mat3::outer(g.arm_a() * g.e, -r.force);
-            slot.dyad_b[s] = Mat3::outer(-g.arm_b() * g.e, r.force);
+            slot.dyad_a[s] = Mat3::outer(w.arm_a * w.e, -w.force);
+            slot.dyad_b[s] = Mat3::outer(-w.arm_b * w.e, w.force);
         }
         if (!fracture_active || !l.strength.breakable) return;
-        const BondCause broken = l.strength.broken(-elastic_force, -elastic_moment, g.e, radius[i], strength_factor[i]);
+        const BondCause broken =
+            l.strength.broken(-w.elastic_force, -w.elastic_moment, w.e, radius[i], strength_factor[i]);
         if (broken != BondCause::whole) {  // this force still acts in this step; the contact takes over in the next
             cause[i] = static_cast<int>(broken);
             slot.bond_acts[s] = 0;
             failure_time[i] = time;
-            fracture_work[i] += r.stored;
+            fracture_work[i] += w.stored;
             stored_energy[i] = 0.0;
+        }
+    }
+
+    GF_FN bool is_whole(int i) const { return cause[i] == static_cast<int>(BondCause::whole); }
+    GF_FN bool damps(const SphereBondLaw& l) const { return l.damping > 0.0 && dashpots_active; }
+
+    template <bool incremental, bool damped>
+    GF_FN void one(int i, const SphereBondLaw& l) const
+    {
+        write(i, l, act(read<incremental, damped>(i), l.damping, dt));
+    }
+
+    GF_FN void operator()(int i) const
+    {
+        if (!is_whole(i)) {
+            clear(i, first_slot + i);
+            return;
+        }
+        const SphereBondLaw l = laws[law[i]];
+        if (l.incremental)
+            damps(l) ? one<true, true>(i, l) : one<true, false>(i, l);
+        else
+            damps(l) ? one<false, true>(i, l) : one<false, false>(i, l);
+    }
+
+    template <bool incremental, bool damped>
+    GF_FLATTEN void block(int begin, int n, const SphereBondLaw& l) const
+    {
+        Lanes<SphereBondReading<incremental, damped>> in;
+        Lanes<SphereBondWriting<incremental, damped>> out;
+        for (int k = 0; k < n; ++k) in.put(k, read<incremental, damped>(begin + k));
+        for_lanes(n, [&in, &out, zeta = l.damping, dt = dt](int k) { out.put(k, act(in.get(k), zeta, dt)); });
+        for (int k = 0; k < n; ++k) write(begin + k, l, out.get(k));
+    }
+
+    /// Host: whole bonds of one law together.
+    void range(int begin, int end) const
+    {
+        while (begin < end) {
+            int n = 0;
+            while (n < lanes && begin + n < end && is_whole(begin + n) && law[begin + n] == law[begin]) ++n;
+            if (n == 0) {
+                (*this)(begin++);
+                continue;
+            }
+            const SphereBondLaw l = laws[law[begin]];
+            if (l.incremental)
+                damps(l) ? block<true, true>(begin, n, l) : block<true, false>(begin, n, l);
+            else
+                damps(l) ? block<false, true>(begin, n, l) : block<false, false>(begin, n, l);
+            begin += n;
         }
     }
 };

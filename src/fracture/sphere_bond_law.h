@@ -98,9 +98,9 @@ GF_FN BondAction incremental_bond(const BondGeometry& g, const BondSprings& k, c
     r.force = (-k.normal * stretch) * g.e + h.shear_force;
     r.moment = h.moment + h.twist * g.e;
     r.stored = 0.5 * k.normal * stretch * stretch;
-    if (k.shear > 0.0) r.stored += 0.5 * norm2(h.shear_force) / k.shear;
-    if (k.bending > 0.0) r.stored += 0.5 * norm2(h.moment) / k.bending;
-    if (k.twist > 0.0) r.stored += 0.5 * h.twist * h.twist / k.twist;
+    r.stored += k.shear > 0.0 ? 0.5 * norm2(h.shear_force) / k.shear : 0.0;
+    r.stored += k.bending > 0.0 ? 0.5 * norm2(h.moment) / k.bending : 0.0;
+    r.stored += k.twist > 0.0 ? 0.5 * h.twist * h.twist / k.twist : 0.0;
     return r;
 }
 

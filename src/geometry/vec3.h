@@ -84,7 +84,7 @@ GF_FN double norm(const Vec3& a)
 GF_FN Vec3 normalized(const Vec3& a)
 {
     const double n = norm(a);
-    return n > 0.0 ? a * (1.0 / n) : a;
+    return a * (n > 0.0 ? 1.0 / n : 1.0);
 }
 /// Part of a across the unit vector n.
 GF_FN Vec3 tangential(const Vec3& a, const Vec3& n)

@@ -43,6 +43,16 @@ void launch(int n, const Kernel& kernel)
 }  // namespace cuda_detail
 #endif
 
+/// kernel(i) for a slice on the host. A kernel may have range(begin, end) that does the same for several at a time.
+template <class Kernel>
+void run_slice(const Kernel& kernel, int begin, int end)
+{
+    if constexpr (requires { kernel.range(begin, end); })
+        kernel.range(begin, end);
+    else
+        for (int i = begin; i < end; ++i) kernel(i);
+}
+
 /// Call kernel(i) once for every i in [0, n), in any order: a kernel writes only what belongs to i.
 template <class Kernel>
 void parallel_for(Device device, int n, const Kernel& kernel)
@@ -57,15 +67,11 @@ void parallel_for(Device device, int n, const Kernel& kernel)
 #endif
     }
     if (n < serial_limit || threads() == 1) {
-        for (int i = 0; i < n; ++i) kernel(i);
+        run_slice(kernel, 0, n);
         return;
     }
-    pool_detail::run(
-        [](const void* k, int begin, int end) {
-            const Kernel& body = *static_cast<const Kernel*>(k);
-            for (int i = begin; i < end; ++i) body(i);
-        },
-        &kernel, n);
+    pool_detail::run([](const void* k, int begin, int end) { run_slice(*static_cast<const Kernel*>(k), begin, end); },
+                     &kernel, n);
 }
 
 /// The same on the host, for some indices only: what a change of topology touched.

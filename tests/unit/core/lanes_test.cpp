@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Several bonds at once give the bits of one after the other, whatever the width of the processor's vectors.
+#include "model/lanes.h"
+
+#include "gpu/thread_pool.h"
+#include "support/spheres.h"
+
+#include <cstring>
+
+using namespace grainfrac;
+using namespace grainfrac::test;
+
+namespace {
+
+/// A crooked chain that moves: bonds of both forms, damped or not, in runs of 1 to 40; weak ones among them, some
+/// broken.
+Assembly mixed_chain()
+{
+    int draw = 0;
+    Assembly a = sphere_assembly(unbreakable_bond(false));
+    a.model.sphere_bond_laws.host() = {unbreakable_bond(false),
+                                       unbreakable_bond(false, 0.1),
+                                       unbreakable_bond(true),
+                                       unbreakable_bond(true, 0.2),
+                                       {{1e-3, 1e-3, 0.3, 1.0, false, true}, 0.1, false}};
+    const int runs[] = {1, 40, 16, 17, 3, 33, 15, 2, 31, 5};
+    int n = 0, law = 0;
+    sphere(a, {}, 0.5);
+    for (const int run : runs) {
+        for (int k = 0; k < run; ++k, ++n) {
+            sphere(a, {static_cast<double>(n + 1), 0, 0}, 0.4 + 0.1 * (n % 3));
+            join(a, n, n + 1, {3.0 + n % 7, 1.7, law < 2 ? 0.9 : 0.0, 0.6}, law);
+        }
+        law = (law + 1) % 5;
+    }
+    build_incidence(a.state);
+    start_bonds(a.model, a.state);
+    State& s = a.state;
+    for (int i = 0; i < s.bodies.size(); ++i) {
+        shift(s, i, 1e-2 * random_vector(draw));
+        turn(s, i, random_turn(draw, 1e-2));
+        s.bodies.velocity.at(i) = random_vector(draw);
+        s.bodies.angular_velocity.at(i) = random_vector(draw);
+    }
+    for (const int i : {0, 20, 21, 60, 100}) s.sphere_bonds.cause.at(i) = 1;
+    return a;
+}
+
+template <class T>
+bool same_bits(const Buffer<T>& a, const Buffer<T>& b)
+{
+    return a.size() == b.size() &&
+           std::memcmp(a.host().data(), b.host().data(), static_cast<std::size_t>(a.size()) * sizeof(T)) == 0;
+}
+
+void check_same(State& a, State& b)
+{
+    std::vector<const void*> others;
+    b.sphere_bonds.for_each_array([&](const char*, auto& array) { others.push_back(&array); });
+    std::size_t k = 0;
+    a.sphere_bonds.for_each_array([&](const char* name, auto& array) {
+        INFO(name);
+        CHECK(same_bits(array, *static_cast<const std::remove_reference_t<decltype(array)>*>(others[k++])));
+    });
+    CHECK(same_bits(a.slots.force, b.slots.force));
+    CHECK(same_bits(a.slots.torque_a, b.slots.torque_a));
+    CHECK(same_bits(a.slots.torque_b, b.slots.torque_b));
+    CHECK(same_bits(a.slots.bond_acts, b.slots.bond_acts));
+}
+
+}  // namespace
+
+TEST_CASE("lanes: several bonds at once give the bits of one after the other")
+{
+    constexpr double dt = 1e-3;
+    Assembly alone = mixed_chain();
+    alone.model.device = Device::cpu;
+    for (int i = 0; i < alone.state.sphere_bonds.size(); ++i) {
+        sphere_bond_forces(alone.model, alone.state, std::vector<int>{i});
+        sphere_bond_forces(alone.model, alone.state, std::vector<int>{i});
+    }
+    int broken = 0;
+    for (int i = 0; i < alone.state.sphere_bonds.size(); ++i) broken += is_gone(alone.state.sphere_bonds, i) ? 1 : 0;
+    CHECK(broken > 5);  // weak ones too
+
+    const VectorUnit widest = widest_vector_unit();
+    Assembly first;
+    for (const VectorUnit unit : {VectorUnit::base, VectorUnit::avx2, VectorUnit::avx512}) {
+        if (unit > widest) continue;
+        use_vector_unit(unit);
+        Assembly together = mixed_chain();
+        together.model.device = Device::cpu;
+        sphere_bond_forces(together.model, together.state, 0.0);
+        sphere_bond_forces(together.model, together.state, 0.0);
+        check_same(alone.state, together.state);
+        sphere_bond_forces(together.model, together.state, dt);  // with a step: rates, work
+        sphere_bond_forces(together.model, together.state, dt);
+        if (unit == VectorUnit::base)
+            first = together;
+        else
+            check_same(first.state, together.state);
+    }
+    use_vector_unit(widest);
+}
