@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every stage of a step a fixed number of times on small models; callgrind writes a file for each (count_instructions).
 #include "cases.h"
+#include "model/lanes.h"
 #include "stages.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ int main()
         Kind kind;
         int bodies;
     };
+    use_vector_unit(VectorUnit::base);  // what every machine has
     constexpr int rounds = 3;
     for (const Small m : {Small{Kind::honeycomb, 27}, Small{Kind::bonded_spheres, 200}, Small{Kind::prisms, 27},
                           Small{Kind::loose_spheres, 100}}) {
