@@ -47,8 +47,10 @@ std::vector<std::string> size_of(Kind kind, int bodies)
         const double d = std::cbrt(bodies / (0.25 * 3.14159265358979 * std::sqrt(2.0)));
         return {fmt::format("parts[0].region.diameter={}", d), fmt::format("parts[0].region.height={}", d)};
     }
-    const double edge = 1e-3 * std::cbrt(bodies * 3.14159265358979 / 6.0 * 1.02 / 0.5);
-    return {fmt::format("parts[0].region.size=[{0}, {0}, {0}]", edge)};
+    const double fraction = bodies < 1000 ? 0.5 : 0.58;  // near walls less is possible, and denser comes to rest sooner
+    const double edge = 1e-3 * std::cbrt(bodies * 3.14159265358979 / 6.0 * 1.02 / fraction);
+    return {fmt::format("parts[0].region.size=[{0}, {0}, {0}]", edge),
+            fmt::format("parts[0].solid_fraction={}", fraction)};
 }
 
 void spin_at_random(State& s)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/contact_forces.h"
 
-#include "contact/linear_contact.h"
+#include "contact/contact_action.h"
 #include "gpu/parallel.h"
 #include "model/views.h"
 
@@ -72,10 +72,56 @@ struct ContactForces {
     GF_FN void take_over(int i, const ContactPoint& c, const Law& l, ContactHistory& h) const
     {
         const Vec3 f = inherited_force(i);
-        const double pressed = std::fmax(0.0, -dot(f, c.normal)), own = l.area_stiffness * c.overlap_force;
+        const double pressed = larger(0.0, -dot(f, c.normal)), own = l.area_stiffness * c.overlap_force;
         h.shear_force = tangential(f, c.normal);
         h.normal = c.normal;
         match_force(pressed, own, c, h.offset_overlap, h.stiffness_scale, h.max_overlap);
+    }
+
+    GF_FN ContactReading read(int i) const
+    {
+        const int A = a[i], B = b[i];
+        ContactReading x;
+        x.point = point[i];
+        x.history = {shear_force[i],    normal[i],          twist_moment[i],    max_overlap[i],
+                     offset_overlap[i], stiffness_scale[i], shear_stiffness[i], twist_stiffness[i]};
+        x.viscous_force = viscous_force[i];
+        x.position_a = body.position[A];
+        x.position_b = body.position[B];
+        x.velocity_a = body.velocity[A];
+        x.velocity_b = body.velocity[B];
+        x.spin_a = body.angular_velocity[A];
+        x.spin_b = body.angular_velocity[B];
+        x.reduced_mass = reduced_mass(body.inverse_mass[A], body.inverse_mass[B]);
+        return x;
+    }
+
+    GF_FN void write(int i, const ContactWriting& w) const
+    {
+        const ContactResponse& r = w.response;
+        viscous_work[i] += w.viscous_work;
+        viscous_force[i] = r.viscous_force;
+        friction_work[i] += r.friction_work;
+        hysteresis_work[i] += r.hysteresis_work;
+        shear_stiffness[i] = w.history.shear_stiffness;
+        twist_stiffness[i] = w.history.twist_stiffness;
+        stored_energy[i] = r.stored;
+        normal_force[i] = r.normal_force;
+        shear_force[i] = w.history.shear_force;
+        normal[i] = w.history.normal;
+        twist_moment[i] = w.history.twist_moment;
+        max_overlap[i] = w.history.max_overlap;
+        offset_overlap[i] = w.history.offset_overlap;
+        stiffness_scale[i] = w.history.stiffness_scale;
+
+        const int s = first_slot + i;
+        slot.force[s] = w.force;
+        slot.torque_a[s] = w.torque_a;
+        slot.torque_b[s] = w.torque_b;
+        if (slot.dyad_a.size > 0) {
+            slot.dyad_a[s] = Mat3::outer(w.arm_a, -w.force);
+            slot.dyad_b[s] = Mat3::outer(w.arm_b, w.force);
+        }
     }
 
     GF_FN void operator()(int i) const
@@ -84,54 +130,47 @@ struct ContactForces {
             if (active[i] != found[i]) clear(i);  // otherwise there is nothing: its slot was cleared then
             return;
         }
-        const ContactPoint c = point[i];
         const Law l = laws[law[i]];
-        ContactHistory h{shear_force[i],    normal[i],          twist_moment[i],    max_overlap[i],
-                         offset_overlap[i], stiffness_scale[i], shear_stiffness[i], twist_stiffness[i]};
+        ContactReading x = read(i);
         bool taken_over = false;
         if (active[i] != 1) {
-            h = ContactHistory{};
-            h.normal = c.normal;
+            x.history = ContactHistory{};
+            x.history.normal = x.point.normal;
             taken_over = active[i] == held_by_bonds;
-            if (taken_over) take_over(i, c, l, h);
+            if (taken_over) take_over(i, x.point, l, x.history);
             active[i] = 1;
         }
-        const Vec3 arm_a = c.position - body.position[a[i]], arm_b = c.position - body.position[b[i]];
-        const Vec3 wa = body.angular_velocity[a[i]], wb = body.angular_velocity[b[i]];
-        ContactMotion m;
-        m.velocity = body.velocity[b[i]] + cross(wb, arm_b) - body.velocity[a[i]] - cross(wa, arm_a);
-        m.mean_spin = 0.5 * (wa + wb);
-        m.twist_rate = dot(wb - wa, c.normal);
-        m.reduced_mass = reduced_mass(body.inverse_mass[a[i]], body.inverse_mass[b[i]]);
-        const ContactResponse r = l(c, m, dt, h);
-
-        // trapezoidal in time, as for the dashpots of interfaces
-        viscous_work[i] -= 0.5 * dt * (viscous_force[i] + r.viscous_force) * dot(m.velocity, c.normal);
-        viscous_force[i] = r.viscous_force;
-        friction_work[i] += r.friction_work;
-        hysteresis_work[i] += r.hysteresis_work;
+        const ContactWriting w = act(l, x, dt);
+        write(i, w);
         // the bonds booked what they held as lost
-        if (taken_over) inserted_work[i] += r.stored + r.friction_work + r.hysteresis_work;
-        shear_stiffness[i] = h.shear_stiffness;
-        twist_stiffness[i] = h.twist_stiffness;
-        stored_energy[i] = r.stored;
-        normal_force[i] = r.normal_force;
-        shear_force[i] = h.shear_force;
-        normal[i] = h.normal;
-        twist_moment[i] = h.twist_moment;
-        max_overlap[i] = h.max_overlap;
-        offset_overlap[i] = h.offset_overlap;
-        stiffness_scale[i] = h.stiffness_scale;
+        if (taken_over) inserted_work[i] += w.response.stored + w.response.friction_work + w.response.hysteresis_work;
+    }
 
-        const int s = first_slot + i;
-        const Vec3 couple = r.couple * c.normal;
-        slot.force[s] = r.force;
-        slot.torque_a[s] = -couple - cross(arm_a, r.force);
-        slot.torque_b[s] = cross(arm_b, r.force) + couple;
-        if (slot.dyad_a.size > 0) {
-            slot.dyad_a[s] = Mat3::outer(arm_a, -r.force);
-            slot.dyad_b[s] = Mat3::outer(arm_b, r.force);
+    GF_FLATTEN void block(const int* contact, int n) const
+    {
+        Lanes<ContactReading> in;
+        Lanes<ContactWriting> out;
+        for (int k = 0; k < n; ++k) in.put(k, read(contact[k]));
+        for_lanes(n, [&in, &out, l = laws[law[contact[0]]], dt = dt](int k) { out.put(k, act(l, in.get(k), dt)); });
+        for (int k = 0; k < n; ++k) write(contact[k], out.get(k));
+    }
+
+    /// Host: contacts of one law that were there before together.
+    void range(int begin, int end) const
+    {
+        int waiting[lanes], n = 0;
+        for (int i = begin; i < end; ++i) {
+            if (found[i] != 1 || active[i] != 1) {
+                (*this)(i);
+                continue;
+            }
+            if (n == lanes || (n > 0 && law[i] != law[waiting[0]])) {
+                block(waiting, n);
+                n = 0;
+            }
+            waiting[n++] = i;
         }
+        if (n > 0) block(waiting, n);
     }
 };
 

@@ -15,6 +15,7 @@
 
 #include "geometry/vec3.h"
 #include "model/contacts.h"
+#include "model/lanes.h"
 
 namespace grainfrac {
 
@@ -28,6 +29,14 @@ struct ContactHistory {
     double stiffness_scale = 1.0;
     double shear_stiffness = 0.0;
     double twist_stiffness = 0.0;
+
+    template <class Visit>
+    constexpr void for_each_number(Visit&& visit)
+    {
+        const auto all = [&](auto&... x) { (grainfrac::for_each_number(x, visit), ...); };
+        all(shear_force, normal, twist_moment, max_overlap, offset_overlap, stiffness_scale, shear_stiffness,
+            twist_stiffness);
+    }
 };
 
 /// Motion of b against a at the contact.
@@ -74,8 +83,8 @@ GF_FN void match_force(double pressed, double own, const ContactPoint& c, double
     if (pressed <= own)
         offset_overlap = (1.0 - pressed / own) * root;
     else
-        stiffness_scale = std::fmin(most_stiffness_scale, pressed / own);
-    max_overlap = std::fmax(0.0, root - offset_overlap);
+        stiffness_scale = smaller(most_stiffness_scale, pressed / own);
+    max_overlap = larger(0.0, root - offset_overlap);
 }
 
 /// What a spring keeps of its force when its stiffness goes from `before` to `now`, and the energy that is lost.
@@ -85,7 +94,7 @@ struct ReshapedSpring {
     GF_FN ReshapedSpring(double force2, double before, double now)
     {
         if (before <= 0.0) return;
-        share = std::fmin(1.0, now / before);
+        share = smaller(1.0, now / before);
         lost = 0.5 * force2 * (1.0 / before - (now > 0.0 ? share * share / now : 0.0));
     }
 };
@@ -103,7 +112,7 @@ struct LinearContact {
         const double k = area_stiffness * h.stiffness_scale;
         const double K = k * c.area;
         const double root = std::sqrt(2.0 * c.overlap_energy);
-        const double overlap = std::fmax(0.0, root - h.offset_overlap);
+        const double overlap = larger(0.0, root - h.offset_overlap);
 
         double stiffness = k, rest = 0.0;  // E = stiffness/2 (overlap - rest)^2
         if (unload_factor > 1.0) {
@@ -115,13 +124,13 @@ struct LinearContact {
             stiffness = unload_factor * k;  // on the loading branch both give the same force
             rest = h.max_overlap * lost;
         }
-        const double stretch = std::fmax(0.0, overlap - rest);
+        const double stretch = larger(0.0, overlap - rest);
         r.stored = 0.5 * stiffness * stretch * stretch;
         const double scale = stiffness * stretch / root;
         double p = scale * c.overlap_force;
         if (damping_ratio > 0.0) {
             const double v_n = dot(m.velocity, c.normal);
-            const double damped = std::fmax(0.0, p - 2.0 * damping_ratio * std::sqrt(K * m.reduced_mass) * v_n);
+            const double damped = larger(0.0, p - 2.0 * damping_ratio * std::sqrt(K * m.reduced_mass) * v_n);
             r.viscous_force = damped - p;
             p = damped;
         }

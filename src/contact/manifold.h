@@ -166,7 +166,7 @@ struct FacePair {
         const Plane pa = plane_of(a, face_a), pb = plane_of(b, face_b);
         const double cosine = -dot(pa.normal, pb.normal);
         if (cosine <= turned_cosine) return;
-        const double t = std::fmin(1.0, (cosine - turned_cosine) / (facing_cosine - turned_cosine));
+        const double t = smaller(1.0, (cosine - turned_cosine) / (facing_cosine - turned_cosine));
         weight = t * t * (3.0 - 2.0 * t);
         weight_slope = 6.0 * t * (1.0 - t) / (facing_cosine - turned_cosine);
         over[0] = face_overlap(a, face_a, pa, b, face_b, pb, about);
@@ -273,7 +273,7 @@ GF_FN EdgeOverlap edge_overlap(const PlacedEdge& i, const PlacedEdge& j, double 
     const double length = i.length, other_length = j.length;
     const double sine2 = norm2(cross(o.d, o.other_d));
     if (sine2 >= crossing_sine2) return o;
-    const double x = std::fmax(0.0, (sine2 - parallel_sine2) / (crossing_sine2 - parallel_sine2));
+    const double x = larger(0.0, (sine2 - parallel_sine2) / (crossing_sine2 - parallel_sine2));
     o.weight = 1.0 - x * x * (3.0 - 2.0 * x);
     o.weight_slope = -6.0 * x * (1.0 - x) / (crossing_sine2 - parallel_sine2);
     o.radii = radii;
@@ -281,7 +281,7 @@ GF_FN EdgeOverlap edge_overlap(const PlacedEdge& i, const PlacedEdge& j, double 
     // squared distance to the other line: A s^2 + 2 B s + C, below radii^2 between the roots
     const Vec3 w = o.from - o.other_from;
     const double c = dot(o.d, o.other_d), h = dot(w, o.other_d);
-    const double A = std::fmax(sine2, 1e-28), B = dot(w, o.d) - c * h, C = norm2(w) - h * h - o.radii * o.radii;
+    const double A = larger(sine2, 1e-28), B = dot(w, o.d) - c * h, C = norm2(w) - h * h - o.radii * o.radii;
     const double inside = B * B - A * C;
     if (inside <= 0.0) {
         o.weight = 0.0;
@@ -294,8 +294,8 @@ GF_FN EdgeOverlap edge_overlap(const PlacedEdge& i, const PlacedEdge& j, double 
         low = high;
         high = t;
     }
-    o.s0 = std::fmax(0.0, low);
-    o.s1 = std::fmin(length, high);
+    o.s0 = larger(0.0, low);
+    o.s1 = smaller(length, high);
     for (int k = 0; k < 2; ++k) {
         const Vec3 end = o.other_from + (k == 0 ? 0.0 : other_length) * o.other_d;
         const double s = dot(end - o.from, o.d);
@@ -404,7 +404,7 @@ struct KeptPairs {
 /// (1 - x)^2 below 1, and its slope.
 GF_FN double fade(double x, double& slope)
 {
-    const double rest = std::fmax(0.0, 1.0 - x);
+    const double rest = larger(0.0, 1.0 - x);
     slope = -2.0 * rest;
     return rest * rest;
 }
@@ -470,7 +470,7 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
     const bool ball_a = a.is_ball(), ball_b = b.is_ball();
     const ClosestPoints near =
         ball_a && ball_b ? ball_points(a, b) : closest_points(a.core(), b.core(), b.position - a.position, corners);
-    clearance = std::fmax(0.0, near.distance - radii);
+    clearance = larger(0.0, near.distance - radii);
     if (near.distance >= (1.0 - least_penetration) * radii) return c;
     if (near.distance <= core_contact_share * radii) {
         c.depth = radii;

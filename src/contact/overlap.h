@@ -69,7 +69,7 @@ struct RawMoments {
         centroid = X * (1.0 / V);
         m.V = V;
         m.S = S;
-        m.Q = std::fmax(0.0, I - norm2(X) / V);
+        m.Q = larger(0.0, I - norm2(X) / V);
         return m;
     }
 };
@@ -153,7 +153,7 @@ struct FaceOverlap {
             const Vec3 m_ds = dy * e1 - dx * e2;          // outward normal times the length
             const auto at = [&](double t, double part) {  // Gauss, exact for quintics
                 const double x = p.x[i] + t * dx, y = p.y[i] + t * dy;
-                const double D1 = U.by_area(std::fmax(0.0, g(x, y)), spread(x, y));
+                const double D1 = U.by_area(larger(0.0, g(x, y)), spread(x, y));
                 w.add(-part * D1 * m_ds, on_plane(x, y) + (z0 + zx * x + zy * y) * N);
             };
             constexpr double t = 0.112701665379258311;
@@ -203,7 +203,7 @@ struct LineOverlap {
             const double slant = dot(m, d);
             if (slant == 0.0) return;
             const Vec3 x = origin + s * d;
-            w.add(U.by_length(std::fmax(0.0, g(s)), norm2(x - centroid)) / std::fabs(slant) * m, x);
+            w.add(U.by_length(larger(0.0, g(s)), norm2(x - centroid)) / std::fabs(slant) * m, x);
         };
         end(s0, m0);
         end(s1, m1);
@@ -248,7 +248,7 @@ struct EdgeOverlap {
         RawMoments m;
         Vec3 away, foot;
         integrate([&](double s, double w) {
-            const double gap = std::fmax(0.0, g(s, away, foot));
+            const double gap = larger(0.0, g(s, away, foot));
             m.add(gap, from + s * d, 0.5 * gap * w);
         });
         return m.about_centroid(centroid);
@@ -260,12 +260,12 @@ struct EdgeOverlap {
         Wrench w;
         Vec3 away, foot;
         integrate([&](double s, double part) {
-            const double gap = std::fmax(0.0, g(s, away, foot));
+            const double gap = larger(0.0, g(s, away, foot));
             const double D = U.by_line_gap(gap, norm2(from + s * d - centroid));
             w.add(-weight * part * D * away, foot);
         });
         const auto end = [&](double s, const Vec3& at, double side) {
-            const double gap = std::fmax(0.0, g(s, away, foot));
+            const double gap = larger(0.0, g(s, away, foot));
             w.add(-side * weight * U.by_length(gap, norm2(from + s * d - centroid)) * d, at);
         };
         if (other_ends[0]) end(s0, end0, -1.0);

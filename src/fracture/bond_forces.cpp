@@ -206,8 +206,8 @@ struct InterfaceForces {
             slid += w * r.friction_work;
             sheared += w * r.shear_share;
             damaged += w * p.damage;
-            least_opening = std::fmin(least_opening, d_n);
-            most_sliding2 = std::fmax(most_sliding2, d_1 * d_1 + d_2 * d_2);
+            least_opening = smaller(least_opening, d_n);
+            most_sliding2 = larger(most_sliding2, d_1 * d_1 + d_2 * d_2);
 
             // Both forces act at the midpoint: at their own points the pair would leave the torque jump x traction.
             const Vec3 t = w * (r.normal * f.n + r.shear1 * f.t1 + r.shear2 * f.t2);

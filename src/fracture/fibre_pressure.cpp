@@ -36,7 +36,7 @@ struct FibrePressures {
             ++bonds;
         }
         const double stress = bonds > 0 ? sum / (bonds * section[i]) : 0.0;
-        pressure[i] = std::fmax(0.0, at_rest[i] - contraction[i] * stress);
+        pressure[i] = larger(0.0, at_rest[i] - contraction[i] * stress);
     }
 };
 

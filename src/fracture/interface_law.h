@@ -12,6 +12,7 @@
 // surface was met, so that a step that overshoots the onset lands on the envelope and dissipates no less.
 #pragma once
 
+#include "geometry/vec3.h"
 #include "gpu/function.h"
 
 #include <cmath>
@@ -87,7 +88,7 @@ struct InterfaceLaw {
             const double in_shear = tau / c;
             return std::sqrt(in_tension * in_tension + in_shear * in_shear);
         }
-        return std::fmax(in_tension, (tau + sigma * friction) / c);
+        return larger(in_tension, (tau + sigma * friction) / c);
     }
 
     /// G_c at mode mix B in [0, 1] (0: opening) [J/m^2].
@@ -158,7 +159,7 @@ struct InterfaceLaw {
                 new_damage = 1.0;  // brittle, or confinement raised the onset above what G_c can carry
             } else if (lambda > p.onset) {
                 const double envelope = p.failure * (lambda - p.onset) / (lambda * (p.failure - p.onset));
-                new_damage = std::fmax(p.damage, std::fmin(1.0, envelope));
+                new_damage = larger(p.damage, smaller(1.0, envelope));
             }
         }
 
@@ -183,8 +184,7 @@ struct InterfaceLaw {
                     b_1 *= cap_before / length_before;
                     b_2 *= cap_before / length_before;
                 }
-                r.friction_work =
-                    new_damage * k_s * std::fmax(0.0, 0.5 * ((b_1 + s_1) * slid_1 + (b_2 + s_2) * slid_2));
+                r.friction_work = new_damage * k_s * larger(0.0, 0.5 * ((b_1 + s_1) * slid_1 + (b_2 + s_2) * slid_2));
             }
         }
         const double friction_energy = k_s * (s_1 * s_1 + s_2 * s_2);

@@ -9,6 +9,16 @@
 
 namespace grainfrac {
 
+/// Of two numbers; a where one is no number. std::fmax, which may not do so, is a call of the C library.
+GF_FN double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+GF_FN double smaller(double a, double b)
+{
+    return b < a ? b : a;
+}
+
 struct Vec3 {
     double x = 0.0, y = 0.0, z = 0.0;
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several bonds at once give the bits of one after the other, whatever the width of the processor's vectors.
+// Several bonds or contacts at once give the bits of one after the other, whatever the width of the processor's
+// vectors.
 #include "model/lanes.h"
 
-#include "gpu/thread_pool.h"
+#include "contact/contact_forces.h"
+#include "contact/find_contacts.h"
+#include "contact/find_pairs.h"
 #include "support/spheres.h"
 
 #include <cstring>
@@ -53,15 +56,22 @@ bool same_bits(const Buffer<T>& a, const Buffer<T>& b)
            std::memcmp(a.host().data(), b.host().data(), static_cast<std::size_t>(a.size()) * sizeof(T)) == 0;
 }
 
-void check_same(State& a, State& b)
+template <class Arrays>
+void check_same_arrays(Arrays& a, Arrays& b)
 {
     std::vector<const void*> others;
-    b.sphere_bonds.for_each_array([&](const char*, auto& array) { others.push_back(&array); });
+    b.for_each_array([&](const char*, auto& array) { others.push_back(&array); });
     std::size_t k = 0;
-    a.sphere_bonds.for_each_array([&](const char* name, auto& array) {
+    a.for_each_array([&](const char* name, auto& array) {
         INFO(name);
         CHECK(same_bits(array, *static_cast<const std::remove_reference_t<decltype(array)>*>(others[k++])));
     });
+}
+
+void check_same(State& a, State& b)
+{
+    check_same_arrays(a.sphere_bonds, b.sphere_bonds);
+    check_same_arrays(a.contacts, b.contacts);
     CHECK(same_bits(a.slots.force, b.slots.force));
     CHECK(same_bits(a.slots.torque_a, b.slots.torque_a));
     CHECK(same_bits(a.slots.torque_b, b.slots.torque_b));
@@ -69,6 +79,69 @@ void check_same(State& a, State& b)
 }
 
 }  // namespace
+
+/// Spheres pressed into each other and moving, by laws that dissipate in all ways; some touch no longer.
+Assembly pressed_spheres()
+{
+    int draw = 0;
+    Assembly a = sphere_assembly(unbreakable_bond(false));
+    a.model.skin = 0.5;
+    a.model.contact_laws.host() = {LinearContact{1e3, 0.7, 0.3, 1.0, 0.0}, LinearContact{2e3, 0.5, 0.1, 4.0, 0.0},
+                                   LinearContact{3e3, 0.9, 1e3, 1.0, 0.2}};
+    for (int i = 0; i < 120; ++i) {
+        sphere(a, {0.9 * i, 0.1 * (i % 3), 0}, 0.5);
+        a.state.bodies.velocity.at(i) = random_vector(draw);
+        a.state.bodies.angular_velocity.at(i) = random_vector(draw);
+    }
+    find_pairs(a.model, a.state);
+    for (int k = 0; k < a.state.contacts.size(); ++k) a.state.contacts.law.at(k) = k / 23 % 3;
+    find_contacts(a.model, a.state);
+    return a;
+}
+
+/// Go on a little, so that contacts slide, roll, open and come.
+void go_on(Assembly& a, double dt)
+{
+    for (int i = 0; i < a.state.bodies.size(); ++i) shift(a.state, i, dt * a.state.bodies.velocity[i]);
+    find_contacts(a.model, a.state);
+}
+
+TEST_CASE("lanes: several contacts at once give the bits of one after the other")
+{
+    const VectorUnit widest = widest_vector_unit();
+    std::vector<int> all;
+    int touched = 0, opened = 0;
+    Assembly alone = pressed_spheres();
+    alone.model.device = Device::cpu;
+    for (int k = 0; k < alone.state.contacts.size(); ++k) all.push_back(k);
+    for (const VectorUnit unit : {VectorUnit::base, VectorUnit::avx2, VectorUnit::avx512}) {
+        if (unit > widest) continue;
+        use_vector_unit(unit);
+        Assembly one = pressed_spheres(), together = pressed_spheres();
+        one.model.device = together.model.device = Device::cpu;
+        for (int round = 0; round < 10; ++round) {
+            for (const int k : all) touched += one.state.contacts.found[k] == 1 ? 1 : 0;
+            for (const int k : all)
+                opened += one.state.contacts.active[k] == 1 && one.state.contacts.found[k] != 1 ? 1 : 0;
+            contact_forces(one.model, one.state, all);  // dt = 0
+            contact_forces(together.model, together.state, 0.0);
+            check_same(one.state, together.state);
+            go_on(one, 0.02);
+            go_on(together, 0.02);
+        }
+        for (int round = 0; round < 10; ++round) {  // with a step: friction, dashpots
+            contact_forces(together.model, together.state, 1e-2);
+            go_on(together, 1e-2);
+        }
+        if (unit == VectorUnit::base)
+            alone = together;
+        else
+            check_same(alone.state, together.state);
+    }
+    use_vector_unit(widest);
+    CHECK(touched > 100);
+    CHECK(opened > 5);
+}
 
 TEST_CASE("lanes: several bonds at once give the bits of one after the other")
 {
