@@ -11,6 +11,12 @@ namespace grainfrac {
 
 namespace {
 
+/// Of a table with a row and a column for each of n groups.
+std::size_t entry_of_pair(int a, int b, int n)
+{
+    return static_cast<std::size_t>(a) * static_cast<std::size_t>(n) + static_cast<std::size_t>(b);
+}
+
 /// A rigid wall is stiffer than the grains it meets by this factor: it must not add compliance to the specimen.
 constexpr double wall_stiffness_factor = 10.0;
 
@@ -180,8 +186,7 @@ BondTable::BondTable(const Case& c, Model& model, const std::string& made_in)
             r.misorientation_angle = s.misorientation_angle;
             r.misorientation_effect = s.misorientation_effect;
             const auto at = static_cast<int>(rules_.size());
-            of_pair_[static_cast<std::size_t>(a * groups_ + b)] = of_pair_[static_cast<std::size_t>(b * groups_ + a)] =
-                at;
+            of_pair_[entry_of_pair(a, b, groups_)] = of_pair_[entry_of_pair(b, a, groups_)] = at;
             rules_.push_back(r);
             entry_.push_back(entry);
         }
@@ -190,7 +195,7 @@ BondTable::BondTable(const Case& c, Model& model, const std::string& made_in)
 
 const BondRule* BondTable::rule_of(int group_a, int group_b) const
 {
-    const int at = of_pair_[static_cast<std::size_t>(group_a * groups_ + group_b)];
+    const int at = of_pair_[entry_of_pair(group_a, group_b, groups_)];
     return at < 0 ? nullptr : &rules_[static_cast<std::size_t>(at)];
 }
 
@@ -271,7 +276,7 @@ void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model&
     std::vector<std::array<std::string, 2>> betweens;
     for (const ContactSpec& s : c.contacts) betweens.push_back(s.between);
     const int n = static_cast<int>(model.groups.size());
-    model.contact_law_of.assign(static_cast<std::size_t>(n * n), -1);
+    model.contact_law_of.assign(entry_of_pair(n, 0, n), -1);
     for (int a = 0; a < n; ++a) {
         for (int b = a; b < n; ++b) {
             const int entry = most_specific(betweens, model, a, b);
@@ -292,8 +297,8 @@ void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model&
             law.friction = s.friction;
             law.unload_factor = s.dissipation == "hysteretic" ? 1.0 / (s.restitution * s.restitution) : 1.0;
             law.damping_ratio = s.dissipation == "viscous" ? damping_ratio_of(s.restitution) : 0.0;
-            model.contact_law_of[static_cast<std::size_t>(a * n + b)] =
-                model.contact_law_of[static_cast<std::size_t>(b * n + a)] = model.contact_laws.size();
+            model.contact_law_of[entry_of_pair(a, b, n)] = model.contact_law_of[entry_of_pair(b, a, n)] =
+                model.contact_laws.size();
             model.contact_laws.host().push_back(law);
         }
     }

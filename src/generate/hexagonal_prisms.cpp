@@ -128,7 +128,8 @@ struct Window {
     }
     std::size_t index(const Site& s) const
     {
-        return static_cast<std::size_t>((s.row - row0) * columns() + (s.column - column0));
+        return static_cast<std::size_t>(s.row - row0) * static_cast<std::size_t>(columns()) +
+               static_cast<std::size_t>(s.column - column0);
     }
 };
 

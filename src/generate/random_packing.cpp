@@ -106,7 +106,10 @@ private:
         const auto cell_of = [&](const Vec3& x, int k) {
             return std::clamp(static_cast<int>((x[k] - low[k]) / (2.0 * region_.half[k]) * n[k]), 0, n[k] - 1);
         };
-        const auto index = [&](int x, int y, int z) { return static_cast<std::size_t>((z * n[1] + y) * n[0] + x); };
+        const auto index = [&](int x, int y, int z) {
+            const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(n[1]) + static_cast<std::size_t>(y);
+            return row * static_cast<std::size_t>(n[0]) + static_cast<std::size_t>(x);
+        };
         std::vector<int> begin(index(n[0] - 1, n[1] - 1, n[2] - 1) + 2), member(balls_.size());
         std::vector<std::size_t> home;
         for (const Ball& b : balls_) {
