@@ -76,7 +76,7 @@ struct Run {
     std::vector<PullOutState> path;
     PullOutPath::Found found = PullOutPath::Found::equilibrium;  // the last
 
-    explicit Run(const Case& c) : built(build(c, Device::cpu)) { start(built.model, built.state); }
+    explicit Run(const Case& c) : built(build(c, default_device())) { start(built.model, built.state); }
 
     const PullOut& pull_out() const { return *built.experiment.pull_out; }
     PullOutState now() const { return pull_out_state(pull_out(), built.state); }
