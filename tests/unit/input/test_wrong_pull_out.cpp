@@ -57,6 +57,23 @@ TEST_CASE("wrong keys of a pull-out are told with what is allowed", "[input]")
           "\"speed\"\n");
 }
 
+TEST_CASE("what breaks besides the interface is refused with damage control", "[input]")
+{
+    const std::string text = example();
+    for (const char* name : {"matrix", "fibre"}) {
+        const std::string entry =
+            std::string("between = [\"") + name + "\", \"" + name + "\"]\nlaw     = \"parallel\"\n";
+        const std::string weak =
+            replaced(text, entry + "failure = \"unbreakable\"", entry + "tensile_strength = 1e6\ncohesion = 1e7");
+        const std::string key = name == std::string("matrix") ? "FILE:35: bonds[0]" : "FILE:40: bonds[1]";
+        CHECK(
+            build_problems_of(weak) ==
+            "error: " + key +
+                ".failure: must be \"unbreakable\" with test.control = \"damage\", in which only the interface of the "
+                "fibre breaks; or use \"displacement\" or \"speed\"\n");
+    }
+}
+
 TEST_CASE("fibres whose spheres do not fit are told by their size", "[input]")
 {
     std::string small = replaced(example(), "\"30 m\"", "\"5 m\"");
