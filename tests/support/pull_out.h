@@ -6,10 +6,15 @@
 #include "experiment/pull_out.h"
 #include "experiment/pull_out_path.h"
 #include "gpu/device.h"
+#include "io/pull_out_files.h"
 #include "motion/energy.h"
 #include "motion/step.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
 #include <vector>
 
 namespace grainfrac::test {
@@ -107,6 +112,28 @@ inline PathSettings by_displacement(double step)
     s.by_damage = false;
     s.shift = step;
     return s;
+}
+
+/// Phases in pull_out.csv, each once, in their order.
+inline std::vector<int> phases_in_file(const PulledOut& run)
+{
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                         ("grainfrac_phases_" + std::to_string(reinterpret_cast<std::uintptr_t>(&run)));
+    std::filesystem::create_directories(folder);
+    PullOutFiles files(folder, {});
+    for (const PullOutState& s : run.path) files.append(s, {});
+    std::ifstream in(folder / "pull_out.csv");
+    std::vector<int> phases;
+    std::string line;
+    while (std::getline(in, line)) {
+        if (line.empty() || line[0] == '#' || line[0] == 'e') continue;
+        std::size_t at = 0;
+        for (int k = 0; k < 5; ++k) at = line.find(',', at) + 1;
+        const int phase = std::stoi(line.substr(at));
+        if (phases.empty() || phases.back() != phase) phases.push_back(phase);
+    }
+    std::filesystem::remove_all(folder);
+    return phases;
 }
 
 }  // namespace grainfrac::test

@@ -177,6 +177,7 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
         CHECK(now.end_stress == Approx(2.0 * 0.2e6 * (p.length - now.embedded_slip)).epsilon(0.005));
     }
     CHECK(run.path.back().exit_slip > 2.0);
+    CHECK(phases_in_file(run) == std::vector<int>{0, 1, 2});
     // first state: from the last level to the exit the fibre is stretched by the whole pull
     CHECK(run.path[1].exit_slip - first_profile.slip.back() ==
           Approx(0.5 * p.piece * run.path[1].end_stress / p.young_modulus).epsilon(1e-6));
