@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/find_contacts.h"
-#include "contact/find_pairs.h"
 #include "contact/gather.h"
 #include "experiment/bending.h"
 #include "experiment/brazilian.h"
@@ -18,6 +16,7 @@
 #include "experiment/resources.h"
 #include "experiment/specimen.h"
 #include "experiment/sphere_bonds.h"
+#include "experiment/start_overlap.h"
 #include "experiment/uniaxial.h"
 #include "experiment/walls.h"
 #include "generate/microstructure.h"
@@ -110,59 +109,6 @@ void check_bonds_exist(const Case& c, const Model& model, const State& state, co
                              "be made");
         }
     }
-}
-
-}  // namespace
-
-namespace {
-
-/// Grains may touch each other and walls at the start, not lie in them by more than this share of the rounding: what
-/// the overlap holds would throw them apart.
-constexpr double most_overlap = 0.05;
-
-std::string name_of(const Model& model, const State& state, int body)
-{
-    const std::int32_t wall = state.bodies.wall[body];
-    if (wall >= 0) return fmt::format("wall \"{}\"", model.walls[static_cast<std::size_t>(wall)]);
-    return fmt::format("grain {} of \"{}\"", state.bodies.id[body],
-                       model.groups[static_cast<std::size_t>(state.bodies.group[body])].name);
-}
-
-/// The key to blame: the wall if one takes part, else the part of the second grain.
-std::string key_of(const Case& c, const Model& model, const State& state, int a, int b)
-{
-    for (const int body : {a, b}) {
-        const std::int32_t wall = state.bodies.wall[body];
-        if (wall < 0) continue;
-        for (std::size_t k = 0; k < c.walls.size(); ++k) {
-            if (c.walls[k].name == model.walls[static_cast<std::size_t>(wall)]) return fmt::format("walls[{}]", k);
-        }
-        return "test.kind";
-    }
-    return fmt::format("parts[{}]", state.bodies.group[std::max(a, b)]);
-}
-
-void check_nothing_overlaps(const Case& c, const Model& model, State state)
-{
-    find_pairs(model, state);
-    find_contacts(model, state);
-    const Contacts& contacts = state.contacts;
-    int worst = -1;
-    double most = most_overlap;
-    for (int i = 0; i < contacts.size(); ++i) {
-        const double radii = model.shapes.radius[state.bodies.shape[contacts.a[i]]] +
-                             model.shapes.radius[state.bodies.shape[contacts.b[i]]];
-        if (contacts.point[i].depth > most * radii) {
-            most = contacts.point[i].depth / radii;
-            worst = i;
-        }
-    }
-    if (worst < 0) return;
-    const int a = contacts.a[worst], b = contacts.b[worst];
-    throw InputError(key_of(c, model, state, a, b),
-                     fmt::format("{} and {} overlap at the start, by {} m{}; move them apart", name_of(model, state, a),
-                                 name_of(model, state, b), fmt::format("{:.3g}", contacts.point[worst].depth),
-                                 contacts.point[worst].overlap_energy > 0.0 ? "" : " or more"));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace grainfrac {
 
@@ -42,6 +44,7 @@ public:
             if (s.kind == "load" && s.local_damping) local_damping(*s.local_damping, path + ".local_damping");
             if (s.gravity) gravity(*s.gravity, path + ".gravity");
         }
+        rigid_motion();
         if (c_.test.wall_friction) friction(*c_.test.wall_friction, "test.wall_friction");
         test();
         control();
@@ -172,6 +175,51 @@ private:
             warn(key,
                  fmt::format("{:.3g} brakes what moves under load by {:.3g} of the force on it; it is for settling",
                              alpha, alpha));
+    }
+
+    /// Stages that are not there to come to rest, in which something moves as a whole: the damping is for vibrations
+    /// about rest, and brakes that too.
+    void rigid_motion()
+    {
+        std::vector<std::string> released;
+        for (std::size_t i = 0; i < c_.stages.size(); ++i) {
+            const StageSpec& s = c_.stages[i];
+            released.insert(released.end(), s.release.begin(), s.release.end());
+            const double alpha = s.local_damping.value_or(c_.control.local_damping);
+            if (alpha == 0.0 || s.kind == "settle" || s.kind == "bond") continue;
+            const std::string what = moving_rigidly(s, i == 0, released);
+            if (what.empty()) continue;
+            warn(s.local_damping ? fmt::format("stages[{}].local_damping", i) : "control.local_damping",
+                 fmt::format("in stage \"{}\" {}, and {:.3g} brakes that too, by {:.3g} of the force on it; use the "
+                             "damping of the bonds",
+                             s.name, what, alpha, alpha));
+        }
+    }
+
+    std::string moving_rigidly(const StageSpec& s, bool first, const std::vector<std::string>& released) const
+    {
+        for (const PartSpec& p : c_.parts) {
+            if (first && norm2(p.velocity) + norm2(p.angular_velocity) > 0.0)
+                return fmt::format("\"{}\" moves by itself", p.name);
+        }
+        if (!released.empty()) return fmt::format("what \"{}\" held is free", released.back());
+        const bool heavy = norm2(s.gravity.value_or(c_.control.gravity)) > 0.0;
+        if (c_.test.kind == "custom" && heavy && c_.walls.empty() && c_.grips.empty()) return "all falls freely";
+        const auto velocity = [&](const GripSpec& g) {
+            for (const StageMotion& m : s.motions) {
+                if (m.wall == g.name) return m.velocity;
+            }
+            return g.velocity;
+        };
+        for (const GripSpec& g : c_.grips) {
+            const Vec3 v = velocity(g);
+            const bool against = std::any_of(c_.grips.begin(), c_.grips.end(), [&](const GripSpec& other) {
+                return other.part == g.part && norm2(velocity(other) - v) > 0.0;
+            });
+            if (norm2(v) > 0.0 && !against && (heavy || c_.walls.empty()))
+                return fmt::format("\"{}\" draws \"{}\" along", g.name, g.part);
+        }
+        return {};
     }
 
     void gravity(const Vec3& g, const std::string& key)

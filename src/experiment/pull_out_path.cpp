@@ -2,6 +2,7 @@
 #include "experiment/pull_out_path.h"
 
 #include "fracture/bond_forces.h"
+#include "fracture/bond_strength.h"
 #include "fracture/softening.h"
 #include "motion/energy.h"
 #include "motion/step.h"
@@ -190,6 +191,7 @@ void PullOutPath::book_work(State& state)
 bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>& interrupted)
 {
     step_in_place(model, state);  // the forces are those of before the move
+    const HeldBonds hold(model);  // what it goes through on the way is no load of theirs
     last_ = relaxation_.relax(model, state, settings_.relax, interrupted);
     book_work(state);
     return last_.at_rest;
@@ -274,6 +276,29 @@ bool PullOutPath::draw(Model& model, State& state, const std::vector<int>& inter
     return relax(model, state, interrupted);
 }
 
+/// The grip has gone too far for a bond: back to where it bears its strength. With friction, which remembers the way
+/// back, it is left where it is.
+bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector<int>& interfaces,
+                                   const std::function<bool()>& interrupted)
+{
+    double share = most_used_bond(model, state).share, off = share - 1.0;
+    if (off <= on_surface || rubs(model, state, interfaces)) return true;
+    const State too_far = state;
+    for (int k = 0; k < most_scalings; ++k) {
+        const Ledger before = energy_ledger(model, state);
+        scale(model, state, 1.0 / share);
+        book_move(model, state, before);
+        if (!relax(model, state, interrupted)) return false;
+        share = most_used_bond(model, state).share;
+        if (std::fabs(share - 1.0) <= on_surface) return true;
+        if (std::fabs(share - 1.0) > std::fabs(off)) break;
+        off = share - 1.0;
+    }
+    state = too_far;  // what broke before has moved so that all is no longer in proportion
+    remember_grip(state);
+    return true;
+}
+
 PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::function<bool()>& interrupted)
 {
     const auto counted = [&](Found found) {
@@ -282,6 +307,8 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     };
     const auto rested = [&](bool ok) { return counted(ok ? Found::equilibrium : Found::not_at_rest); };
     const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
+    if (const MostUsedBond most = most_used_bond(model, state); most.share >= 1.0 - on_surface)
+        return rested(break_bonds(model, state, most, interrupted));
     if (mean_damage(state, interfaces) >= all_broken) {
         if (!settings_.slides) return Found::end;
         settings_.relax.fracture = true;
@@ -296,7 +323,7 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
             shift_fibre(model, state, settings_.shift);
         }
         started_ = true;
-        return rested(relax(model, state, interrupted));
+        return rested(relax(model, state, interrupted) && back_to_strength(model, state, interfaces, interrupted));
     }
     if (!started_) {
         shift_fibre(model, state, settings_.shift);

@@ -6,10 +6,12 @@
 // damage is done at once, as if the state were a little further, and the model comes to rest again. Whether the grip
 // goes on or back in between is not prescribed, so that the path turns where it must (physics/bonded_spheres 13).
 // Displacement control: the grip goes on by steps and everything softens while it comes to rest; where the path turns
-// back, the stress falls.
+// back, the stress falls. Bonds of spheres break at rest: the grip stops where the first of them bears its strength, a
+// point of the path; the next is where the rest can bear what is left.
 #pragma once
 
 #include "experiment/pull_out.h"
+#include "fracture/bond_strength.h"
 #include "motion/energy.h"
 #include "motion/relax.h"
 
@@ -58,6 +60,9 @@ private:
                      const std::function<bool()>& interrupted);
     Found balance(Model& model, State& state, const std::vector<int>& interfaces,
                   const std::function<bool()>& interrupted);
+    bool back_to_strength(Model& model, State& state, const std::vector<int>& interfaces,
+                          const std::function<bool()>& interrupted);
+    bool break_bonds(Model& model, State& state, MostUsedBond most, const std::function<bool()>& interrupted);
     double next_damage(double now) const;
     void go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor);
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);

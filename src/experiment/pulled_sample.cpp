@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiment/pulled_sample.h"
 
+#include "fracture/bond_strength.h"
 #include "fracture/grain_stress.h"
 #include "motion/step.h"
 #include "motion/time_step.h"
@@ -28,23 +29,6 @@ constexpr double broken_share = 0.5;    ///< of the largest force: below, the sa
 constexpr int most_stretches = 400;
 /// Interfaces are judged by their mean tractions: their worst points begin to fail a little before.
 constexpr double begin_of_interfaces = 0.7;
-
-/// Share of its strength at which something breaks, if above `share`; else `share`.
-template <class BreaksAt>
-double largest_share(double share, const BreaksAt& breaks_at)
-{
-    if (!breaks_at(std::max(share, 1e-300))) return share;
-    double low = std::max(share, 1e-300), high = low;
-    while (breaks_at(high)) {
-        low = high;
-        high *= 16.0;
-    }
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (breaks_at(middle) ? low : high) = middle;
-    }
-    return low;
-}
 
 }  // namespace
 
@@ -284,24 +268,12 @@ CoreElasticity core_elasticity(const Vec3& stress, const Strains& strains, int a
 
 double PulledSample::utilisation() const
 {
-    double most = 0.0;
-    const Slots& s = state_.slots;
-    const SphereBonds& p = state_.sphere_bonds;
-    for (int i = 0; i < p.size(); ++i) {
-        const ParallelLaw law = model_.sphere_bond_laws[p.law[i]].strength;
-        const int slot = state_.first_sphere_slot() + i;
-        const Vec3 branch = state_.bodies.position[p.b[i]] - state_.bodies.position[p.a[i]], e = normalized(branch);
-        const Vec3 F = s.force[slot], M = s.torque_b[slot] + cross((1.0 - p.share[i]) * branch, F);
-        const auto breaks_at = [&](double share) {
-            return law.broken(-F, -M, e, p.radius[i], share * p.strength_factor[i]) != BondCause::whole;
-        };
-        if (law.breakable) most = largest_share(most, breaks_at);
-    }
+    double most = most_used_bond(model_, state_).share;
     const InterfaceBonds& f = state_.interfaces;
     for (int i = 0; i < f.size(); ++i) {
         const InterfaceLaw law = model_.interface_laws[f.law[i]];
         if (law.failure == FailureUnit::unbreakable) continue;
-        const Vec3 n = rotate(state_.bodies.orientation[f.a[i]], f.normal_a[i]), t = -s.force[i] / f.area[i];
+        const Vec3 n = rotate(state_.bodies.orientation[f.a[i]], f.normal_a[i]), t = -state_.slots.force[i] / f.area[i];
         const double sigma = dot(t, n), tau = norm(tangential(t, n)), strength = f.strength_factor[i];
         most = std::max({most, sigma / (strength * law.tensile_strength),
                          (tau + law.friction * sigma) / (strength * law.cohesion)});

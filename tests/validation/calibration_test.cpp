@@ -44,7 +44,7 @@ TEST_CASE("the inside of a close packing has the constants of the infinite one")
     for (const char* generator : {"hcp", "fcc"}) {
         Case c = packed(generator, 0.7);
         c.calibration[0].width = c.calibration[0].length = 0.7 * 9.0;
-        const CalibrationSample sample(c, 0, Device::cpu);
+        const CalibrationSample sample(c, 0, default_device());
         const Response r = sample.pull(sample.start());
         INFO(generator);
         REQUIRE(r.at_rest);
@@ -71,7 +71,7 @@ TEST_CASE("a thin fibre is taken for its sample from where the lattice has its o
     s.poisson_ratio.reset();
     s.start_normal_stiffness = 4e9 / std::numbers::pi;  // K = 1e9 N/m
     s.start_shear_ratio = 1e-9;
-    const CalibrationSample sample(c, 0, Device::cpu);
+    const CalibrationSample sample(c, 0, default_device());
     const Response r = sample.pull(sample.start());
     REQUIRE(r.at_rest);
     const double lateral = -4.0 / 11.0, rise = 2.0 / 3.0 + lateral / 3.0;
@@ -95,7 +95,7 @@ TEST_CASE("a finite cylinder of close packing is softer by its surface")
         s.start_shear_ratio = row.lambda;
         const LatticeElasticity form =
             lattice_elasticity(Packing::hcp, lattice_stiffness_at(Packing::hcp, 5e9, row.lambda, 1.0), 1.0);
-        const CalibrationSample sample(c, 0, Device::cpu);
+        const CalibrationSample sample(c, 0, default_device());
         const Response r = sample.pull(sample.start());
         INFO("lambda " << row.lambda);
         REQUIRE(r.at_rest);
@@ -114,7 +114,7 @@ TEST_CASE("close packings are calibrated in at most four trials from starts far 
             s.poisson_ratio = 0.1;
             s.start_normal_stiffness = stiffness;
             s.start_shear_ratio = ratio;
-            const CalibrationSample sample(c, 0, Device::cpu);
+            const CalibrationSample sample(c, 0, default_device());
             const auto trials = find_bond_constants(sample.target(), sample.start(),
                                                     [&](const BondConstants& k) { return sample.pull(k); });
             INFO(generator << " from " << stiffness << ", " << ratio);
@@ -152,7 +152,7 @@ TEST_CASE("interfaces of hexagonal prisms are calibrated in their plane")
         s.start_normal_stiffness = 1e12;
         s.start_shear_ratio = 1.0;
         c.calibration = {s};
-        const CalibrationSample sample(c, 0, Device::cpu);
+        const CalibrationSample sample(c, 0, default_device());
         const auto trials = find_bond_constants(sample.target(), sample.start(),
                                                 [&](const BondConstants& k) { return sample.pull(k); });
         INFO(direction);
@@ -174,7 +174,7 @@ TEST_CASE("a chain is calibrated as a bar")
     c.parts[0].fibre.radius = 1.0;
     c.calibration[0].poisson_ratio.reset();
     c.calibration[0].young_modulus = 50e9;
-    const CalibrationSample sample(c, 0, Device::cpu);
+    const CalibrationSample sample(c, 0, default_device());
     const auto trials =
         find_bond_constants(sample.target(), sample.start(), [&](const BondConstants& k) { return sample.pull(k); });
     CHECK(trials.size() == 1);
@@ -193,7 +193,7 @@ TEST_CASE("the strength of a sample follows the strength of its bonds in proport
     chain.bonds[0].failure = "point";
     chain.bonds[0].tensile_strength = 5e6;
     chain.bonds[0].cohesion = 1e12;
-    const CalibrationSample bar(chain, 0, Device::cpu);
+    const CalibrationSample bar(chain, 0, default_device());
     CHECK(bar.strength(bar.start()) == Approx(5e6).epsilon(1e-5));
 
     Case c = packed("hcp", 1.0);
@@ -202,11 +202,11 @@ TEST_CASE("the strength of a sample follows the strength of its bonds in proport
     c.bonds[0].failure = "point";
     c.bonds[0].tensile_strength = 5e6;
     c.bonds[0].cohesion = 1e12;
-    const CalibrationSample sample(c, 0, Device::cpu);
+    const CalibrationSample sample(c, 0, default_device());
     const BondConstants k = sample.start();
     const double strength = sample.strength(k);
     c.bonds[0].tensile_strength *= 3.0;
-    CHECK(CalibrationSample(c, 0, Device::cpu).strength(k) == Approx(3.0 * strength).epsilon(1e-6));
+    CHECK(CalibrationSample(c, 0, default_device()).strength(k) == Approx(3.0 * strength).epsilon(1e-6));
     const double endless = 5e9 * (5e6 / k.normal_stiffness) / ((2.0 - 0.15) / 3.0);
     CHECK(strength < endless);
     CHECK(strength > 0.5 * endless);
@@ -216,7 +216,7 @@ TEST_CASE("what cannot be calibrated is said with its key")
 {
     const auto problem = [](const Case& c) -> InputProblem {
         try {
-            CalibrationSample(c, 0, Device::cpu);
+            CalibrationSample(c, 0, default_device());
         } catch (const InputError& e) {
             return e.problems.front();
         }
@@ -249,7 +249,7 @@ TEST_CASE("a random packing is calibrated in at most four trials")
         s.width = s.length = 10.0;
         s.start_normal_stiffness = stiffness;
         s.start_shear_ratio = ratio;
-        const CalibrationSample sample(c, 0, Device::cpu);
+        const CalibrationSample sample(c, 0, default_device());
         const auto trials = find_bond_constants(sample.target(), sample.start(),
                                                 [&](const BondConstants& k) { return sample.pull(k); });
         INFO("from " << stiffness << ", " << ratio);
@@ -274,7 +274,7 @@ TEST_CASE("packings are calibrated in at most four trials for targets and starts
                 s.poisson_ratio = nu;
                 s.start_normal_stiffness = 1e7;
                 s.start_shear_ratio = ratio;
-                const CalibrationSample sample(c, 0, Device::cpu);
+                const CalibrationSample sample(c, 0, default_device());
                 const auto trials = find_bond_constants(sample.target(), sample.start(),
                                                         [&](const BondConstants& k) { return sample.pull(k); });
                 INFO(generator << ", nu " << nu << ", from k_s/k_n = " << ratio);

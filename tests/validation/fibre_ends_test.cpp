@@ -74,7 +74,7 @@ std::vector<int> grips(const Built& b)
 std::string key_refused(const Case& c)
 {
     try {
-        build(c, Device::cpu);
+        build(c, default_device());
     } catch (const InputError& e) {
         return e.problems.at(0).key;
     }
@@ -85,7 +85,7 @@ std::string key_refused(const Case& c)
 
 TEST_CASE("fibre ends: a node at each layer stands for a whole piece", "[pull_out]")
 {
-    const Built b = build(fibre_in_lattice(), Device::cpu);
+    const Built b = build(fibre_in_lattice(), default_device());
     const PullOut& p = *b.experiment.pull_out;
     CHECK(p.length == Approx(13.0 * layer).epsilon(1e-9));
     CHECK(patches(b) == Approx(2.0 * std::numbers::pi * 13.0 * layer).epsilon(1e-9));
@@ -105,7 +105,7 @@ TEST_CASE("fibre ends: with a spacing of its own the chain is as long as told, a
         Case c = fibre_in_lattice();
         c.parts[1].diameter = 0.3;
         c.parts[1].fibre.spacing = spacing;
-        const Built b = build(c, Device::cpu);
+        const Built b = build(c, default_device());
         CAPTURE(spacing);
         CHECK(patches(b) == Approx(2.0 * std::numbers::pi * 13.0 * layer).epsilon(1e-9));
         CHECK(b.experiment.pull_out->length == Approx(13.0 * layer).epsilon(1e-9));
@@ -118,7 +118,7 @@ TEST_CASE("fibre ends: what stands out of the matrix is not embedded", "[pull_ou
     Case c = fibre_in_lattice();
     c.parts[1].fibre.to.z += 4.0;  // nodes go on at the distance of the layers
     c.parts[1].fibre.from.z += 3.0 * layer;
-    const Built b = build(c, Device::cpu);
+    const Built b = build(c, default_device());
     const PullOut& p = *b.experiment.pull_out;
     CHECK(p.length == Approx(10.0 * layer).epsilon(1e-9));
     CHECK(patches(b) == Approx(2.0 * std::numbers::pi * 10.0 * layer).epsilon(1e-9));
@@ -134,7 +134,7 @@ TEST_CASE("fibre ends: copies that are shifted along the pull have ends of their
     c.parts[0].region.diameter = 12.0;
     c.parts[1].fibre.from.z += 3.0 * layer;
     c.parts[1].copies = {{4.0, 0.0, -2.0 * layer}};
-    Built b = build(c, Device::cpu);
+    Built b = build(c, default_device());
     start(b.model, b.state);
     const PullOut& p = *b.experiment.pull_out;
     CHECK(p.fibres == 2);
@@ -166,7 +166,7 @@ TEST_CASE("fibre ends: spheres taken from packings with and without layers", "[p
         }
         for (const char* reach : {"level", "all"}) {
             c.bonds[1].reach = reach;
-            const Built b = build(c, Device::cpu);
+            const Built b = build(c, default_device());
             const PullOut& p = *b.experiment.pull_out;
             CAPTURE(reach);
             CHECK(p.length == Approx(height).epsilon(1e-9));
@@ -187,7 +187,7 @@ TEST_CASE("fibre ends: spheres taken from packings with and without layers", "[p
         c.bonds[0].gap_factor = c.bonds[1].gap_factor = 0.05;
         CHECK(key_refused(c) == "bonds[1].reach");
         c.bonds[1].reach = "all";
-        Built b = build(c, Device::cpu);
+        Built b = build(c, default_device());
         const PullOut& p = *b.experiment.pull_out;
         CHECK(p.length == Approx(13.0 * layer).epsilon(0.05));
         CHECK(patches(b) == Approx(2.0 * std::numbers::pi * p.length).epsilon(1e-9));
@@ -200,7 +200,7 @@ TEST_CASE("fibre ends: spheres taken from packings with and without layers", "[p
     SECTION("its axial stress is not known, so that no pressure falls with it")
     {
         c.bonds[1].radial_pressure = 1e6;
-        CHECK_NOTHROW(build(c, Device::cpu));
+        CHECK_NOTHROW(build(c, default_device()));
         c.bonds[1].contraction = 0.1;
         CHECK(key_refused(c) == "bonds[1].contraction");
     }
@@ -213,9 +213,9 @@ TEST_CASE("fibre ends: bends that bear on nothing are told", "[pull_out]")
     c.parts[1].fibre.shape = "hooked";
     c.parts[1].fibre.from.z = -1.0;
     c.parts[1].fibre.hook_length = 1.5;
-    CHECK(build(c, Device::cpu).experiment.warnings.size() == 1);
+    CHECK(build(c, default_device()).experiment.warnings.size() == 1);
     c.bonds[1].normal_stiffness = 1e9;
-    CHECK(build(c, Device::cpu).experiment.warnings.empty());
+    CHECK(build(c, default_device()).experiment.warnings.empty());
 }
 
 TEST_CASE("fibre ends: fibres that reach out of their matrix or run through each other are refused", "[pull_out]")

@@ -96,7 +96,7 @@ TEST_CASE("patches of a fibre between grains are the fibre's surface", "[mixed]"
         Case c = mixed_case(4e11);
         c.parts[1].fibre.radius = 0.6e-3;
         for (Vec3* end : {&c.parts[1].fibre.from, &c.parts[1].fibre.to}) end->x += around * side;
-        Built b = build(c, Device::cpu);
+        Built b = build(c, default_device());
         start(b.model, b.state);
         double area = 0.0;
         const std::vector<int> patches = fibre_interfaces(*b.experiment.pull_out, b.state);
@@ -108,7 +108,7 @@ TEST_CASE("patches of a fibre between grains are the fibre's surface", "[mixed]"
 
 TEST_CASE("a fibre of spheres in stiff grains: stiffness, strength and work of the bar on springs", "[mixed][slow]")
 {
-    Built b = build(mixed_case(4e13), Device::cpu);
+    Built b = build(mixed_case(4e13), default_device());
     start(b.model, b.state);
     const PullOut& p = *b.experiment.pull_out;
     PathSettings s;

@@ -2,6 +2,7 @@
 // Input files for the tests of the reader: a good one, and the means to spoil it.
 #pragma once
 
+#include "experiment/experiment.h"
 #include "io/input.h"
 
 #include <cstdio>
@@ -125,6 +126,24 @@ inline std::string problems_of(const std::string& text, const std::vector<std::s
     } catch (const InputError& e) {
         std::string out = render_problems(e.problems, places, file.path());
         for (std::size_t at; (at = out.find(file.path())) != out.npos;) out.replace(at, file.path().size(), "FILE");
+        return out;
+    }
+}
+
+/// The report of build(), "" if there is none.
+inline std::string build_problems_of(const std::string& text)
+{
+    const TemporaryFile file(text);
+    std::map<std::string, SourcePlace> places;
+    const Case c = read_case(file.path(), {}, places);
+    try {
+        build(c, Device::cpu);
+        return "";
+    } catch (const InputError& e) {
+        std::string out = render_problems(e.problems, c.places, c.file);
+        const std::string folder = std::filesystem::path(file.path()).parent_path().string();
+        for (std::size_t at; (at = out.find(file.path())) != out.npos;) out.replace(at, file.path().size(), "FILE");
+        for (std::size_t at; (at = out.find(folder)) != out.npos;) out.replace(at, folder.size(), "FOLDER");
         return out;
     }
 }

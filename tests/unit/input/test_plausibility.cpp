@@ -178,6 +178,30 @@ TEST_CASE("no start file and no small example gives a warning", "[input]")
     }
 }
 
+TEST_CASE("local damping however little where something moves as a whole", "[input]")
+{
+    const auto said = [](const char* example, const std::vector<std::string>& set) {
+        std::map<std::string, SourcePlace> places;
+        return listed(
+            implausible_input(read_case(std::string(GF_SOURCE_DIR) + "/examples/" + example + ".toml", set, places)));
+    };
+    const char* const fountain = "chain_fountain/chain_fountain";
+    CHECK(said(fountain, {}) == "");
+    CHECK(
+        said(fountain, {"control.local_damping=0.01"}) ==
+        "control.local_damping: in stage \"lift\" \"hand\" draws \"chain\" along, and 0.01 brakes that too, by 0.01 of "
+        "the force on it; use the damping of the bonds\n");
+    CHECK(said("chain_catenary/chain_catenary", {"control.local_damping=0.1"}) == "");  // its other end is held
+    const std::string pair = said("damped_pair/damped_pair", {"stages.free.local_damping=0.1"});
+    CHECK(pair.rfind("stages[1].local_damping: in stage \"free\" what \"hand\" held is free, and 0.1", 0) == 0);
+    const auto flying = [](const std::vector<std::string>& set) {
+        return listed(implausible_input(read_text(new_case("custom"), set)));
+    };
+    CHECK(flying({"stages[0].kind=\"load\"", "stages[0].local_damping=0.1"}) == "");
+    CHECK(flying({"stages[0].kind=\"load\"", "stages[0].local_damping=0.1", "parts[0].velocity=[0,0,1]"})
+              .find("moves by itself") != std::string::npos);
+}
+
 TEST_CASE("a material that no part is of changes nothing, listed first", "[input]")
 {
     const auto said = [](const Checked& x) {

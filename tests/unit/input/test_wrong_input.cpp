@@ -546,24 +546,6 @@ const Unbuildable unbuildable[] = {
      "move them apart\n"},
 };
 
-/// The report of build(), "" if there is none.
-std::string build_problems_of(const std::string& text)
-{
-    const TemporaryFile file(text);
-    std::map<std::string, SourcePlace> places;
-    const Case c = read_case(file.path(), {}, places);
-    try {
-        build(c, Device::cpu);
-        return "";
-    } catch (const InputError& e) {
-        std::string out = render_problems(e.problems, c.places, c.file);
-        const std::string folder = std::filesystem::path(file.path()).parent_path().string();
-        for (std::size_t at; (at = out.find(file.path())) != out.npos;) out.replace(at, file.path().size(), "FILE");
-        for (std::size_t at; (at = out.find(folder)) != out.npos;) out.replace(at, folder.size(), "FOLDER");
-        return out;
-    }
-}
-
 }  // namespace
 
 TEST_CASE("the files that are spoiled are good", "[input]")

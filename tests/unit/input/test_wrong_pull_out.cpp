@@ -56,3 +56,41 @@ TEST_CASE("wrong keys of a pull-out are told with what is allowed", "[input]")
           "error: FILE:53: control.gravity = [0, 0, 1]: has no place in a row of equilibria; use test.control = "
           "\"speed\"\n");
 }
+
+TEST_CASE("what breaks besides the interface is refused with damage control", "[input]")
+{
+    const std::string text = example();
+    for (const char* name : {"matrix", "fibre"}) {
+        const std::string entry =
+            std::string("between = [\"") + name + "\", \"" + name + "\"]\nlaw     = \"parallel\"\n";
+        const std::string weak =
+            replaced(text, entry + "failure = \"unbreakable\"", entry + "tensile_strength = 1e6\ncohesion = 1e7");
+        const std::string key = name == std::string("matrix") ? "FILE:35: bonds[0]" : "FILE:40: bonds[1]";
+        CHECK(
+            build_problems_of(weak) ==
+            "error: " + key +
+                ".failure: must be \"unbreakable\" with test.control = \"damage\", in which only the interface of the "
+                "fibre breaks; or use \"displacement\" or \"speed\"\n");
+    }
+}
+
+TEST_CASE("fibres whose spheres do not fit are told by their size", "[input]")
+{
+    std::string small = replaced(example(), "\"30 m\"", "\"5 m\"");
+    small = replaced(replaced(small, "\"-15.2 m\"", "\"-2.7 m\""), "\"15.2 m\"", "\"2.7 m\"");
+    CHECK(build_problems_of(small) == "");
+    CHECK(build_problems_of(replaced(small, "\"0.8 m\"", "\"2.2 m\"")) ==
+          "error: FILE:31: parts[1].diameter = \"2.2 m\": must be <= 1.633 m: so far are spheres 757 and 759 of "
+          "\"fibre\" "
+          "apart, which are no neighbours along it\n");
+    const std::string wavy = "radius = \"0.4 m\", shape = \"wavy\", amplitude = \"0.3 m\", wavelength = \"4 m\"";
+    CHECK(
+        build_problems_of(replaced(small, "radius = \"1 m\"", wavy)) ==
+        "error: FILE:31: parts[1].diameter = \"0.8 m\": must be <= 0.5568 m, or fibre.radius larger than 0.4 m: sphere "
+        "776 of \"fibre\" lies in sphere 574 of \"matrix\"\n");
+    const std::string gentle = replaced(replaced(wavy, "0.3 m", "0.2 m"), "4 m\"", "4 m\", sideways = [1, 0, 0]");
+    CHECK(
+        build_problems_of(replaced(replaced(small, "radius = \"1 m\"", gentle), "-2.7 m", "-2.2 m")) ==
+        "error: FILE:31: parts[1].diameter = \"0.8 m\": must be <= 0.5575 m, or fibre.radius larger than 0.4 m: sphere "
+        "775 of \"fibre\" lies in sphere 61 of \"matrix\"\n");  // which is of the supported face
+}
