@@ -185,7 +185,7 @@ def friction(args, say):
     for name in [c for c in cases if c in tails]:
         settings = settings_of(5e9, 30, K0, 1.0)
         settings.update({"test.stop.time": 100000, "test.damage_step": 0.2, "test.stop.slip": 29, "test.slide_step": 0.5,
-                         MORE_OF_INTERFACE: "\n" + tails[name]})
+                         MORE_OF_INTERFACE: "\nnormal_stiffness = 1e9\n" + tails[name]})
         out, seconds = run(args, f"friction_{name}", settings)
         L = json.loads((out / "summary.json").read_text())["test"]["embedded_length_m"]
         law = (RESIDUAL,) if name == "constant" else (0.0, PRESSURE, FRICTION, CONTRACTION)
