@@ -264,6 +264,7 @@ bool PullOutPath::draw(Model& model, State& state, const std::vector<int>& inter
 {
     const PullOut& p = pull_out_;
     double before = 0.0;
+    relaxation_.renew_masses(model, state);  // friction acts ever farther from the nodes
     {
         Sliding sliding(model, state, interfaces, settings_.slide);
         for (int k = 0; k < most_draws; ++k) {

@@ -268,3 +268,34 @@ TEST_CASE("example fibre_pullout in short: same bits on two threads, same path a
     CHECK(turned.work == Approx(one.work).epsilon(1e-3));
     CHECK(one.slip == Approx(3e-3).epsilon(0.01));  // a fibre shorter than 9.7 m never slips further
 }
+
+TEST_CASE("example fibre_pullout in short: what is broken slides until little is left in the matrix")
+{
+    // A step of the slide takes more than half of a piece, and in the end friction acts metres from the nodes.
+    std::ifstream in(std::string(GF_SOURCE_DIR) + "/examples/fibre_pullout/fibre_pullout.toml");
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::string key = "failure_slip    = \"3 mm\"\n";
+    REQUIRE(text.find(key) != std::string::npos);
+    text.insert(text.find(key) + key.size(), "residual_shear = \"0.1 MPa\"\nnormal_stiffness = 1e9\n");
+    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
+    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    std::ofstream(folder + "/slide.toml") << text;
+    const std::string command =
+        std::string(GF_PROGRAM) + " run '" + folder + "/slide.toml' --out '" + folder +
+        "/out' -q --no-report --threads 1 " + short_pull_out +
+        "--set parts.fibre.fibre.from='[0, 0, -2.9]' --set parts.fibre.fibre.to='[0, 0, 2.9]' " +
+        "--set test.damage_step=0.3 --set test.slide_step=0.5 --set test.stop.slip=5 > /dev/null";
+    CAPTURE(command);
+    REQUIRE(std::system(command.c_str()) == 0);
+    const HistoryTable t = grainfrac::read_history_csv(fs::path(folder) / "out" / "pull_out.csv");
+    std::ifstream summary_file(folder + "/out/summary.json");
+    const double length = nlohmann::json::parse(summary_file)["test"]["embedded_length_m"].get<double>();
+    summary_file.close();
+    fs::remove_all(folder);
+    const std::vector<double>&slip = t.column("embedded_slip_m"), &stress = t.column("end_stress_Pa");
+    CHECK(slip.back() > 5.0);
+    for (std::size_t i = 0; i < slip.size(); ++i) {
+        if (slip[i] < 0.25) continue;
+        CHECK(stress[i] == Approx(2.0 * 0.1e6 * (length - slip[i])).epsilon(1e-3));  // 2 tau_r (L - s)/a
+    }
+}
