@@ -30,8 +30,8 @@ std::vector<SharedFace> fibre_patches(const Case& c, const Model& model, const S
 void finish_fibre_interfaces(const Case& c, Model& model, State& state, const BondTable& table);
 
 /// Spheres of one packing touch across the surface of a fibre that is taken from it, and grains that made no room for a
-/// chain reach into it. The interface is all that joins them: as contacts they would lock the fibre in, or throw it out.
-/// Leaves pairs alone that an entry of [[contacts]] names.
+/// chain reach into it. The interface is all that joins them: as contacts they would lock the fibre in, or throw it
+/// out. Leaves pairs alone that an entry of [[contacts]] names.
 void part_fibres(const Case& c, Model& model, const State& state, const BondTable& table);
 
 }  // namespace grainfrac

@@ -299,3 +299,26 @@ TEST_CASE("example fibre_pullout in short: what is broken slides until little is
         CHECK(stress[i] == Approx(2.0 * 0.1e6 * (length - slip[i])).epsilon(1e-3));  // 2 tau_r (L - s)/a
     }
 }
+
+TEST_CASE("example fibre_in_grains in short: a fibre slides past grains that reach into it")
+{
+    // every second layer has a corner of three prisms where the fibre is
+    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
+    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const std::string command =
+        std::string(GF_PROGRAM) + " run '" + GF_SOURCE_DIR + "/examples/fibre_in_grains/fibre_in_grains.toml' --out '" +
+        folder +
+        "/out' -q --no-report --threads 1 --set parts.matrix.stacking='\"hollow\"' "
+        "--set parts.matrix.region.height='\"40 um\"' --set parts.matrix.region.diameter='\"60 um\"' "
+        "--set parts.fibre.fibre.from='[0, 0, \"-20 um\"]' --set parts.fibre.fibre.to='[0, 0, \"30 um\"]' "
+        "--set test.displacement_step='\"0.05 um\"' --set test.stop.slip='\"10 um\"' > /dev/null";
+    CAPTURE(command);
+    REQUIRE(std::system(command.c_str()) == 0);
+    const HistoryTable t = grainfrac::read_history_csv(fs::path(folder) / "out" / "pull_out.csv");
+    fs::remove_all(folder);
+    const std::vector<double>&slip = t.column("embedded_slip_m"), &stress = t.column("end_stress_Pa");
+    CHECK(slip.back() > 9.9e-6);
+    for (std::size_t i = 0; i < slip.size(); ++i) {
+        if (slip[i] > 1e-6) CHECK(stress[i] == Approx(2.0 * 10e6 * (40e-6 - slip[i]) / 8.5e-6).epsilon(1e-3));
+    }
+}
