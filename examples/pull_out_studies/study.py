@@ -2,18 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the pull-out studies and compares them with references. Python's own library only.
 
-    study.py [--program grainfrac] [--out folder] [--threads N] [elastic | path | lengths | speed] [case ...]
+    study.py [--program grainfrac] [--out folder] [--threads N] [STUDY] [case ...]
 
 elastic: shear of the interface and stress of the fibre before it yields, for each stiffness ratio, length, interface and
 sphere size; root mean square difference over the range of the reference, at equal load. path: the whole path with spheres
-of 1 and 0.5 m. lengths: the whole path of fibres of 5 to 50 m with spheres of 1 m. speed: peak at four speeds of the grip.
+of 1 and 0.5 m. lengths: the whole path of fibres of 5 to 50 m, a case is "length" (spheres of 1 m) or "length/diameter".
+speed: peak at four speeds of the grip. friction: the path with friction of what is broken, and sliding to the end under
+constant friction and under pressure. bonds: the path with spring-dashpots in the matrix against parallel bonds.
 With --keep what a folder has is not run again. Tables go to standard output and to the folder.
 """
-import argparse, bisect, csv, json, math, pathlib, subprocess, sys, time
+import argparse, json, math, pathlib, subprocess, sys, time
+
+from references import (DATA, K0, closed_tail, elastic_turns, farthest, interpolated, nrmse, shear_lag_profile, table,
+                        work_of)
 
 HERE = pathlib.Path(__file__).resolve().parent
-DATA = HERE.parent.parent / "tests" / "data" / "fibre"
-A, B, E_F, NU_F, NU_M, K0, YIELD, FAILURE = 1.0, 6.0, 50e9, 0.2, 0.3, 1e9, 1e-3, 3e-3
 
 # name: E_m [Pa], L [m], K0 [Pa/m], d [m], Dressler (2020): tau, sigma_f
 ELASTIC = {
@@ -26,51 +29,26 @@ ELASTIC = {
     "d=0.7": (5e9, 30, K0, 0.7, "0.0711", ""), "d=1": (5e9, 30, K0, 1.0, "0.0512", ""),
 }
 REFERENCE = {"1:10": "1:10 d=0.5", "d=0.7": "1:10 d=0.7", "d=1": "1:10 d=1"}  # names in elastic_cases.csv
-LENGTHS = (5, 8, 9, 10, 11, 12, 15, 20, 25, 30, 35, 40, 50)
-INTERFACE = "shear stiffness of the interface"
+LENGTHS = ("5/0.5", "8/0.5", "9/0.5", "10/0.5", "11/0.5", "12/0.5", "15", "20", "25", "30", "35", "40", "50")
+# Of the input, where --set has no name for them: bonds have none.
+INTERFACE, MORE_OF_INTERFACE, MATRIX_LAW = "shear stiffness of the interface", "more of the interface", "law of the matrix"
 PATH_SPHERES = (1.0, 0.5)
 TURNS = (("peak_stress_Pa", 1e6), ("largest_exit_slip_m", 1e-3), ("stress_at_largest_slip_Pa", 1e6),
          ("largest_end_displacement_m", 1e-3), ("stress_at_largest_displacement_Pa", 1e6))
 EXACT_TURNS = ("max_stress_Pa", "max_slip_m", "stress_at_max_slip_Pa", "max_displacement_m",
                "stress_at_max_displacement_Pa")
 SPEEDS = (1.0, 0.1, 0.01, 0.001)
-
-
-def shear_lag(E_m, L, k):
-    """alpha, gamma of the closed form with the interface in series; Nairn (1997), as in Dressler (2020)."""
-    V = A * A / (B * B - A * A)
-    G_f, G_m = E_F / (2 * (1 + NU_F)), E_m / (2 * (1 + NU_M))
-    c_m = A / (B * B - A * A) * (B**4 * math.log(B / A) / (B * B - A * A) - (3 * B * B - A * A) / 4)
-    C = 1 / k + A / 4 / G_f + c_m / G_m
-    c = 2 / A * (1 / E_F + V / E_m)
-    return math.sqrt(A * A * c / C), V * E_F / (E_m + V * E_F)
-
-
-def shear_lag_profile(E_m, L, k, load, z):
-    """tau, sigma_f [Pa] at z from the embedded end, free there, under `load` [Pa]."""
-    alpha, gamma = shear_lag(E_m, L, k)
-    q, S = alpha / A, math.sinh(alpha * L / A)
-    tau = load * alpha / 2 * (gamma * math.cosh(q * (L - z)) + (1 - gamma) * math.cosh(q * z)) / S
-    sigma = load * (gamma + ((1 - gamma) * math.sinh(q * z) - gamma * math.sinh(q * (L - z))) / S)
-    return tau, sigma
-
-
-def table(path):
-    with open(path) as f:
-        return list(csv.DictReader(line for line in f if not line.startswith("#")))
-
-
-def interpolated(x, y, at):
-    k = min(max(bisect.bisect_right(x, at), 1), len(x) - 1)
-    return y[k - 1] + (at - x[k - 1]) / (x[k] - x[k - 1]) * (y[k] - y[k - 1])
+RESIDUAL, PRESSURE, FRICTION, CONTRACTION = 0.1e6, 1e6, 0.1, 0.0144928  # contraction: of the moduli, wide matrix
+STATE = ("end_slip_m", "end_displacement_m", "end_stress_Pa", "mean_damage")
 
 
 def run(args, name, settings):
-    """Results of the input with these settings, and the time it took; bonds have no name that --set could use."""
+    """Results of the input with these settings, and the time it took."""
     name = name.replace(":", "_").replace("=", "_")
     out, case = pathlib.Path(args.out) / name, pathlib.Path(args.out) / f"{name}.toml"
     text = (HERE / "pull_out_studies.toml").read_text()
-    case.write_text(text.replace('"1e9 Pa/m"', f'"{settings.pop(INTERFACE)} Pa/m"'))
+    text = text.replace('"1e9 Pa/m"', f'"{settings.pop(INTERFACE)} Pa/m"' + settings.pop(MORE_OF_INTERFACE, ""))
+    case.write_text(text.replace('"parallel"', f'"{settings.pop(MATRIX_LAW, "parallel")}"', 1))
     command = [args.program, "run", str(case), "--out", str(out), "--force", "-q", "--threads", str(args.threads)]
     for key, value in settings.items():
         command += ["--set", f"{key}={json.dumps(value)}"]
@@ -92,9 +70,9 @@ def elastic(args, say):
     references = {}
     for row in table(DATA / "elastic_cases.csv"):
         references.setdefault(row["case"], []).append([float(row[c]) for c in ("z_m", "tau_Pa", "sigma_f_Pa")])
-    say("| case | bonds tau | levels tau | sigma_f | shear-lag: levels tau | sigma_f | its own error: tau | sigma_f "
-        "| Dressler tau | sigma_f | s |")
-    say("|---|---|---|---|---|---|---|---|---|---|---|")
+    say("| case | bonds tau | levels tau | over its maximum | sigma_f | shear-lag: levels tau | sigma_f | its own error: tau "
+        "| sigma_f | Dressler tau | sigma_f | s |")
+    say("|" + 12 * "---|")
     for name in args.cases or ELASTIC:
         E_m, L, k, d, theirs_tau, theirs_sigma = ELASTIC[name]
         out, seconds = run(args, name, settings_of(E_m, L, k, d))
@@ -121,9 +99,14 @@ def elastic(args, say):
             sums["own_tau"] += (t_lag - t_ref)**2
             sums["own_sigma"] += (s_lag - s_ref)**2
         over = {key: math.sqrt(v / len(rows)) / (load if key.endswith("sigma") else range_tau) for key, v in sums.items()}
-        say(f"| {name} | {over['bond']:.4f} | {over['level']:.4f} | {over['sigma']:.4f} | {over['lag_tau']:.4f} | "
+        over_most = over["level"] * range_tau / (scale * max(tau))
+        say(f"| {name} | {over['bond']:.4f} | {over['level']:.4f} | {over_most:.4f} | {over['sigma']:.4f} | {over['lag_tau']:.4f} | "
             f"{over['lag_sigma']:.4f} | {over['own_tau']:.4f} | {over['own_sigma']:.4f} | {theirs_tau} | {theirs_sigma} | "
             f"{seconds:.0f} |")
+
+
+def states(file):
+    return [[float(r[c]) for c in STATE] for r in table(file)]
 
 
 def path(args, say):
@@ -136,9 +119,7 @@ def path(args, say):
         out, seconds = run(args, f"path_{d:g}", settings)
         test = json.loads((out / "summary.json").read_text())["test"]
         L = test["embedded_length_m"]
-        columns = ("end_slip_m", "end_displacement_m", "end_stress_Pa", "mean_damage")
-        rows = [[float(r[c]) for c in columns] for r in table(out / "pull_out.csv")]
-        exact = [[float(r[c]) for c in columns] for r in table(DATA / f"elastic_path_{L:.2f}m.csv")]
+        rows, exact = states(out / "pull_out.csv"), states(DATA / f"elastic_path_{L:.2f}m.csv")
         slip, displacement = (farthest(rows, exact, k) for k in (0, 1))
         tail = farthest([r for r in rows if r[3] > 0.9], exact, 0)
         say(f"| {d:g} | {L:.3f} | " + " | ".join(f"{test[key] / unit:.4f}" for key, unit in TURNS)
@@ -149,39 +130,18 @@ def path(args, say):
             + " | 1" + 6 * " | " + " |")
 
 
-def work_of(L):
-    return 2 * 0.5 * K0 * YIELD * FAILURE * L / A
-
-
-def elastic_turns(L):
-    """Turning points of elasticity at the length nearest to L."""
-    rows = [{k: float(v) for k, v in r.items()} for r in table(DATA / "elastic_lengths.csv")]
-    return min(rows, key=lambda r: abs(r["L_m"] - L))
-
-
-def farthest(rows, exact, k):
-    """Of the states from the curve in (column k, stress), each over its largest value."""
-    x, y = max(r[k] for r in exact), max(r[2] for r in exact)
-    return max(min(to_segment(r[k] / x, r[2] / y, p[k] / x, p[2] / y, q[k] / x, q[2] / y)
-                   for p, q in zip(exact, exact[1:])) for r in rows)
-
-
-def to_segment(x, y, x0, y0, x1, y1):
-    n = (x1 - x0)**2 + (y1 - y0)**2
-    t = min(1.0, max(0.0, ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / n)) if n > 0 else 0.0
-    return math.hypot(x - x0 - t * (x1 - x0), y - y0 - t * (y1 - y0))
-
-
 def lengths(args, say):
     known = table(DATA / "max_stress_vs_length.csv")
     lag_lengths, lag_peaks = ([float(r[c]) for r in known] for c in ("L_m", "max_stress_Pa"))
-    say("| L (m) | in the run | peak (MPa) | over elasticity | over shear-lag, 1-D | largest slip (mm) | over elasticity "
+    say("| L (m) | d (m) | in the run | peak (MPa) | over elasticity | over shear-lag, 1-D | largest slip (mm) | over elasticity "
         "| at the end (mm) | turns back | largest displacement (mm) | over elasticity | work over 2 G_c L/a | s |")
-    say("|" + 13 * "---|")
-    for L in [int(c) for c in args.cases] or LENGTHS:
-        settings = settings_of(5e9, L, K0, 1.0)
+    say("|" + 14 * "---|")
+    layer = math.sqrt(2 / 3)  # of spheres of 1 m: the references are for whole ones
+    for case in args.cases or LENGTHS:
+        L, _, d = case.partition("/")
+        settings = settings_of(5e9, round(float(L) / layer) * layer, K0, float(d or 1))
         settings.update({"test.stop.time": 100000, "test.damage_step": 0.01})
-        out, seconds = run(args, f"length_{L}", settings)
+        out, seconds = run(args, f"length_{L}" + (f"_{d}" if d else ""), settings)
         test = json.loads((out / "summary.json").read_text())["test"]
         # what hardly holds any more is not found exactly
         slips = [float(r["end_slip_m"]) for r in table(out / "pull_out.csv")
@@ -189,7 +149,7 @@ def lengths(args, say):
         most, last = max(slips), slips[-1]
         peak, length, shift = test["peak_stress_Pa"], test["embedded_length_m"], test["largest_end_displacement_m"]
         lag, own = interpolated(lag_lengths, lag_peaks, length), elastic_turns(length)
-        say(f"| {L} | {length:.3f} | {peak / 1e6:.3f} | {peak / own['max_stress_Pa']:.4f} | {peak / lag:.4f} | "
+        say(f"| {L} | {d or 1} | {length:.3f} | {peak / 1e6:.3f} | {peak / own['max_stress_Pa']:.4f} | {peak / lag:.4f} | "
             f"{1e3 * most:.3f} | {most / own['max_slip_m']:.4f} | {1e3 * last:.3f} | "
             f"{'yes' if most > 1.005 * last else 'no'} | {1e3 * shift:.3f} | "
             f"{shift / own['max_displacement_m']:.4f} | {test['work_J_per_m2'] / work_of(length):.5f} | {seconds:.0f} |")
@@ -212,14 +172,94 @@ def speed(args, say):
             f"{seconds:.0f} |")
 
 
+def friction(args, say):
+    cases = args.cases or ["path", "constant", "pressure"]
+    if "path" in cases:
+        friction_path(args, say)
+    tails = {"constant": f"residual_shear = {RESIDUAL}",
+             "pressure": f"radial_pressure = {PRESSURE}\nfriction = {FRICTION}\nresidual_friction = {FRICTION}\n"
+                         f"contraction = {CONTRACTION}"}
+    say("\n| sliding | L (m) | states | stress at a slip of 1 m (MPa) | closed form | root mean square difference over the "
+        "largest | s |")
+    say("|" + 7 * "---|")
+    for name in [c for c in cases if c in tails]:
+        settings = settings_of(5e9, 30, K0, 1.0)
+        settings.update({"test.stop.time": 100000, "test.damage_step": 0.2, "test.stop.slip": 29, "test.slide_step": 0.5,
+                         MORE_OF_INTERFACE: "\nnormal_stiffness = 1e9\n" + tails[name]})
+        out, seconds = run(args, f"friction_{name}", settings)
+        L = json.loads((out / "summary.json").read_text())["test"]["embedded_length_m"]
+        law = (RESIDUAL,) if name == "constant" else (0.0, PRESSURE, FRICTION, CONTRACTION)
+        rows = [(float(r["embedded_slip_m"]), float(r["end_stress_Pa"])) for r in table(out / "pull_out.csv")]
+        tail = [(s, stress, closed_tail(L, s, *law)) for s, stress in rows if s > 0.5]
+        off = nrmse(((found, exact) for _, found, exact in tail), closed_tail(L, 0.0, *law))
+        s, found, exact = min(tail, key=lambda r: abs(r[0] - 1))
+        say(f"| {name} | {L:.3f} | {len(tail)} | {found / 1e6:.4f} | {exact / 1e6:.4f} | {off:.4f} | {seconds:.0f} |")
+
+
+def friction_path(args, say):
+    """At equal mean damage, over the range of the reference."""
+    settings = settings_of(5e9, 30, K0, 1.0)
+    settings.update({"test.stop.time": 100000, "test.damage_step": 0.01,
+                     MORE_OF_INTERFACE: f"\nresidual_shear = {RESIDUAL}"})
+    out, seconds = run(args, "friction_path", settings)
+    L = json.loads((out / "summary.json").read_text())["test"]["embedded_length_m"]
+    rows = states(out / "pull_out.csv")
+    say(f"| against, L = {L:.3f} m | peak (MPa) | largest slip (mm) | largest displacement (mm) | stress | slip | displacement "
+        "| farthest: slip | displacement | s |")
+    say("|" + 10 * "---|")
+    turns = [max(r[k] for r in rows) for k in (2, 0, 1)]
+    say(f"| the run | {turns[0] / 1e6:.3f} | {1e3 * turns[1]:.3f} | {1e3 * turns[2]:.3f} | | | | | | {seconds:.0f} |")
+    for name, file in (("elasticity", "elastic"), ("shear-lag", "shear_lag")):
+        exact = states(DATA / f"{file}_path_friction_{L:.2f}m.csv")
+        damage = [r[3] for r in exact]
+        differences = []
+        for k in (2, 0, 1):
+            column = [r[k] for r in exact]
+            differences.append(nrmse(((r[k], interpolated(damage, column, r[3])) for r in rows
+                                      if 0 < r[3] < damage[-1]), max(column) - min(column)))
+        own = [max(r[k] for r in exact) for k in (2, 0, 1)]
+        far = [farthest([r for r in rows if r[3] < damage[-1]], exact, k) for k in (0, 1)]
+        say(f"| {name} | {own[0] / 1e6:.3f} ({turns[0] / own[0] - 1:+.1%}) | {1e3 * own[1]:.3f} ({turns[1] / own[1] - 1:+.1%}) | "
+            f"{1e3 * own[2]:.3f} ({turns[2] / own[2] - 1:+.1%}) | " + " | ".join(f"{x:.4f}" for x in differences + far) + " | |")
+
+
+def bonds(args, say):
+    """Profiles over the largest value and over the range of those with parallel bonds; without damage at equal load."""
+    found = {}
+    for law in ("parallel", "spring"):
+        settings = settings_of(5e9, 30, K0, 1.0)
+        settings.update({"test.stop.time": 100000, "test.damage_step": 0.01, MATRIX_LAW: law})
+        out, _ = run(args, f"bonds_{law}", settings)
+        profiles = {}
+        for r in table(out / "profiles.csv"):
+            profiles.setdefault(float(r["mean_damage"]), []).append((float(r["tau_Pa"]), float(r["sigma_f_Pa"])))
+        found[law] = json.loads((out / "summary.json").read_text())["test"], profiles
+    say("| mean damage: parallel | spring-dashpot | tau, over the range | over the largest | sigma_f, over the range | over the "
+        "largest |")
+    say("|" + 6 * "---|")
+    for (damage, ours), (other_damage, theirs) in zip(found["parallel"][1].items(), found["spring"][1].items()):
+        cells = []
+        for k in (0, 1):
+            here, there = [r[k] for r in ours], [r[k] for r in theirs]
+            scale = ours[-1][1] / theirs[-1][1] if damage == 0 else 1.0
+            for span in (max(here) - min(here), max(here)):
+                cells.append(nrmse(zip((scale * x for x in there), here), span))
+        say(f"| {damage:.3f} | {other_damage:.3f} | " + " | ".join(f"{x:.4f}" for x in cells) + " |")
+    say("\n| bonds | " + " | ".join(key for key, _ in TURNS) + " |")
+    say("|" + 6 * "---|")
+    for law, (test, _) in found.items():
+        say(f"| {law} | " + " | ".join(f"{test[key] / unit:.4f}" for key, unit in TURNS) + " |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default="grainfrac")
     parser.add_argument("--out", default="pull_out_studies.out")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--keep", action="store_true")
-    studies = {"elastic": elastic, "path": path, "lengths": lengths, "speed": speed}
-    parser.add_argument("study", nargs="?", choices=studies, default="elastic")
+    studies = {"elastic": elastic, "path": path, "lengths": lengths, "speed": speed, "friction": friction, "bonds": bonds}
+    parser.add_argument("study", nargs="?", choices=studies, default="elastic", metavar="STUDY",
+                        help=", ".join(studies))
     parser.add_argument("cases", nargs="*")
     args = parser.parse_args()
     pathlib.Path(args.out).mkdir(parents=True, exist_ok=True)

@@ -174,7 +174,7 @@ Built build(const Case& c, Device device)
     built.experiment = set_up_test(c, model, state);
     spacing.resize(model.groups.size(), 0.0);
     make_contact_laws(with_wall_friction(c), spacing, model);
-    part_taken_fibres(c, model, table);
+    part_fibres(c, model, state, table);
 
     model.skin = c.control.skin.value_or(default_skin * model.nominal_length);
     built.experiment.quasi_static_speed = quasi_static_speed(c, model);

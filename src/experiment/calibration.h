@@ -68,7 +68,7 @@ public:
     double area() const { return area_; }  ///< section that the modulus is over; 0: of the core [m^2]
 
 private:
-    Built built(const BondConstants& bonds) const;
+    Built built(const BondConstants& bonds, bool breaks = false) const;
 
     const CalibrationSpec spec_;
     Case case_;  // of the sample alone

@@ -161,6 +161,11 @@ double bond_density(const State& state, const Window& window)
         const Vec3 middle = 0.5 * (state.bodies.position[p.a[i]] + state.bodies.position[p.b[i]]);
         sum += window.weight(middle) * std::numbers::pi * p.radius[i] * p.radius[i] * p.length[i] * p.length[i];
     }
+    const InterfaceBonds& f = state.interfaces;
+    for (int i = 0; i < f.size(); ++i) {
+        const Vec3 a = state.bodies.position[f.a[i]], b = state.bodies.position[f.b[i]];
+        sum += window.weight(0.5 * (a + b)) * f.area[i] * norm2(b - a);
+    }
     return sum / window.volume();
 }
 
@@ -201,6 +206,8 @@ CalibrationSample::CalibrationSample(const Case& c, std::size_t calibration, Dev
     case_.control = ControlSpec{};
     for (MaterialSpec& m : case_.materials) m.cleavage = CleavageSpec{};
 
+    if (!core_ && part.generator == "file" && !spec_.area)
+        throw InputError(key_ + "area", "missing: the section of a sample from a file is not known");
     const Built sample = built({1.0, 1.0});
     const State& state = sample.state;
     bodies_ = state.bodies.size();
@@ -226,11 +233,13 @@ CalibrationSample::CalibrationSample(const Case& c, std::size_t calibration, Dev
     if (part.generator == "chain") spacing_ = *case_.parts[0].fibre.spacing;
 }
 
-Built CalibrationSample::built(const BondConstants& bonds) const
+Built CalibrationSample::built(const BondConstants& bonds, bool breaks) const
 {
     Case c = case_;
     c.bonds[0].normal_stiffness = bonds.normal_stiffness;
     c.bonds[0].shear_ratio = bonds.shear_ratio;
+    if (!breaks)
+        c.bonds[0].softening = "brittle";  // whatever the stiffness of a trial, it has no fracture energy to lack
     try {
         return build(c, device_);
     } catch (InputError& e) {  // the sample has one part and one entry of [[bonds]]
@@ -295,7 +304,7 @@ Response CalibrationSample::pull(const BondConstants& bonds) const
 
 double CalibrationSample::strength(const BondConstants& bonds) const
 {
-    Built sample = built(bonds);
+    Built sample = built(bonds, true);
     PulledSample pulled(sample.model, sample.state, axis_);
     const double nu = lattice_elasticity(packing_, {1.0, bonds.shear_ratio}, 1.0).poisson_ratio;
     pulled.stretch_to(small_strain, nu);

@@ -3,6 +3,7 @@
 
 #include "experiment/specimen.h"
 #include "fracture/fibre_pressure.h"
+#include "generate/fibre_in_grains.h"
 #include "generate/fibre_line.h"
 #include "generate/sphere_region.h"
 
@@ -237,15 +238,26 @@ void finish_fibre_interfaces(const Case& c, Model& model, State& state, const Bo
     }
 }
 
-void part_taken_fibres(const Case& c, Model& model, const BondTable& table)
+void part_fibres(const Case& c, Model& model, const State& state, const BondTable& table)
 {
+    const auto overlaps = [&](const FibrePair& pair) {
+        if (part_at(c, pair.fibre).generator == "taken") return true;
+        if (part_at(c, pair.matrix).kind != "grains") return false;
+        std::vector<int> grains;
+        for (int i = 0; i < state.bodies.size(); ++i) {
+            if (state.bodies.group[i] == pair.matrix) grains.push_back(i);
+        }
+        const std::vector<FibreChain> chains = fibre_chains(c, state, pair.fibre);
+        return std::any_of(chains.begin(), chains.end(),
+                           [&](const FibreChain& chain) { return grains_reach_in(model, state, chain, grains); });
+    };
     const int n = static_cast<int>(model.groups.size());
     for (const FibrePair& pair : fibre_pairs(c, table)) {
         const PartSpec &fibre = part_at(c, pair.fibre), &matrix = part_at(c, pair.matrix);
         const bool told = std::any_of(c.contacts.begin(), c.contacts.end(), [&](const ContactSpec& s) {
             return s.between == std::array{fibre.name, matrix.name} || s.between == std::array{matrix.name, fibre.name};
         });
-        if (fibre.generator != "taken" || told) continue;
+        if (told || !overlaps(pair)) continue;
         LinearContact& law = model.contact_laws.host()[static_cast<std::size_t>(
             model.contact_law_of[static_cast<std::size_t>(pair.fibre * n + pair.matrix)])];
         law.area_stiffness = law.friction = 0.0;

@@ -29,8 +29,9 @@ std::vector<SharedFace> fibre_patches(const Case& c, const Model& model, const S
 /// What only these interfaces know: pressure and how it falls, and how far they can slide. Once all bonds are made.
 void finish_fibre_interfaces(const Case& c, Model& model, State& state, const BondTable& table);
 
-/// Spheres of one packing touch across the surface of a fibre that is taken from it. The interface is all that joins
-/// them: as contacts they would lock the fibre in. Leaves pairs alone that an entry of [[contacts]] names.
-void part_taken_fibres(const Case& c, Model& model, const BondTable& table);
+/// Spheres of one packing touch across the surface of a fibre that is taken from it, and grains that made no room for a
+/// chain reach into it. The interface is all that joins them: as contacts they would lock the fibre in, or throw it
+/// out. Leaves pairs alone that an entry of [[contacts]] names.
+void part_fibres(const Case& c, Model& model, const State& state, const BondTable& table);
 
 }  // namespace grainfrac

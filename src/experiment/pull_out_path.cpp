@@ -32,6 +32,9 @@ constexpr int steps_for_little = 20000;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
 constexpr int bisections = 60;
+/// Share of a patch that has slid out of the matrix until the next step retires it: without weight it would have
+/// neither slip nor damage.
+constexpr double nothing_to_rub = 1e-9;
 /// After a slide the pressure changes with the stress, and the stress with it: this near it is enough.
 constexpr double same_pull = 1e-4;
 constexpr int most_draws = 30;
@@ -130,7 +133,7 @@ void PullOutPath::shorten(State& state)
     for (const int i : fibre_interfaces(pull_out_, state)) {
         if (f.retired[i] != 0 || f.damage[i] < 1.0) continue;
         const double left = f.slip_limit[i] - slip_of(pull_out_, state, i, fibre_side(pull_out_, state, i));
-        const double share = left < pull_out_.piece ? std::max(0.0, 0.5 + left / pull_out_.piece) : 1.0;
+        const double share = left < pull_out_.piece ? std::max(nothing_to_rub, 0.5 + left / pull_out_.piece) : 1.0;
         double weight = 0.0;
         for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) weight += state.points.weight[q];
         for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q)
@@ -263,6 +266,7 @@ bool PullOutPath::draw(Model& model, State& state, const std::vector<int>& inter
 {
     const PullOut& p = pull_out_;
     double before = 0.0;
+    relaxation_.renew_masses(model, state);  // friction acts ever farther from the nodes
     {
         Sliding sliding(model, state, interfaces, settings_.slide);
         for (int k = 0; k < most_draws; ++k) {

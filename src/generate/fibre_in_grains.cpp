@@ -98,4 +98,21 @@ std::vector<SharedFace> grain_patches(const Model& model, const State& state, co
     return faces;
 }
 
+bool grains_reach_in(const Model& model, const State& state, const FibreChain& chain, const std::vector<int>& bodies)
+{
+    constexpr double touching = 1e-6;  // of the radius: no more than touching, to round-off
+    const std::vector<Grain> grains = placed(model, state, bodies);
+    const Vec3 center[1] = {{}};
+    for (const int node : chain.nodes) {
+        const PlacedCore ball{center, 1, state.bodies.position[node], Quat{}};
+        const double radius = model.shapes.bounding_radius[state.bodies.shape[node]];
+        for (const Grain& g : grains) {
+            const Vec3 to_grain = g.core.position - ball.position;
+            if (norm(to_grain) > g.reach + radius) continue;
+            if (closest_points(ball, g.core, to_grain).distance < g.rounding + radius * (1.0 - touching)) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace grainfrac

@@ -63,10 +63,36 @@ void plot_curves(const std::filesystem::path& stem, const std::string& title, co
     });
 }
 
-void plot_load_displacement(const std::filesystem::path& stem, const HistoryTable& history)
+void plot_load_displacement(const std::filesystem::path& stem, const HistoryTable& history, bool has_platens)
 {
-    plot_curves(stem, "Load against displacement", "Platen displacement [m]", "Load [N]",
-                {{"load", history.column("displacement_m"), history.column("load_N")}});
+    plot_curves(stem, "Load against displacement", has_platens ? "Platen displacement [m]" : "Displacement [m]",
+                "Load [N]", {{"load", history.column("displacement_m"), history.column("load_N")}});
+}
+
+void plot_wall_forces(const std::filesystem::path& stem, const HistoryTable& walls)
+{
+    constexpr double seen = 0.02;           // of the largest component: smaller ones lie on the axis
+    constexpr std::size_t most_curves = 9;  // as many inks
+    std::vector<std::pair<double, Curve>> found;
+    for (const std::string& name : walls.names) {
+        for (const char axis : {'x', 'y', 'z'}) {
+            const std::string tail = std::string("_force_") + axis + "_N";
+            if (!name.ends_with(tail)) continue;
+            const std::vector<double>& force = walls.column(name);
+            double most = 0.0;
+            for (const double f : force) most = std::max(most, std::fabs(f));
+            found.push_back(
+                {most, {name.substr(0, name.size() - tail.size()) + ", " + axis, walls.column("time_s"), force}});
+        }
+    }
+    const auto stronger = [](const auto& a, const auto& b) { return a.first > b.first; };
+    std::stable_sort(found.begin(), found.end(), stronger);
+    std::vector<Curve> curves;
+    for (auto& [most, curve] : found) {
+        if (most > 0.0 && most >= seen * found.front().first && curves.size() < most_curves) curves.push_back(curve);
+    }
+    if (curves.empty()) return;
+    plot_curves(stem, "Forces on walls and grips", "Time [s]", "Force [N]", curves);
 }
 
 void plot_energies(const std::filesystem::path& stem, const HistoryTable& history)
@@ -102,7 +128,11 @@ void write_plots(const std::filesystem::path& folder, const Model& model, const 
             failures += error.what();
         }
     };
-    attempt([&] { plot_load_displacement(plots / "load_displacement", read_history_csv(folder / "history.csv")); });
+    const bool has_walls = std::filesystem::exists(folder / "walls.csv");
+    attempt([&] {
+        plot_load_displacement(plots / "load_displacement", read_history_csv(folder / "history.csv"), !has_walls);
+    });
+    if (has_walls) attempt([&] { plot_wall_forces(plots / "wall_forces", read_history_csv(folder / "walls.csv")); });
     attempt([&] { plot_energies(plots / "energies", read_history_csv(folder / "history.csv")); });
     attempt([&] { plot_crack_map(plots / "crack_map", model, state, cracks); });
     attempt([&] { plot_crack_orientation(plots / "crack_orientation", cracks); });

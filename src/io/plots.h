@@ -43,7 +43,9 @@ struct TransgranularShare {
 TransgranularShare transgranular_share(const HistoryTable& history);
 void plot_transgranular_share(const std::filesystem::path& stem, const HistoryTable& history);
 
-void plot_load_displacement(const std::filesystem::path& stem, const HistoryTable& history);
+void plot_load_displacement(const std::filesystem::path& stem, const HistoryTable& history, bool has_platens = true);
+/// Components of the forces of walls.csv over the time, the largest first; what is small beside them is left out.
+void plot_wall_forces(const std::filesystem::path& stem, const HistoryTable& walls);
 void plot_energies(const std::filesystem::path& stem, const HistoryTable& history);
 
 /// All of them into folder/plots, the history read from folder/history.csv. Makes as many as it can, then throws

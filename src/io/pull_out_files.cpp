@@ -112,25 +112,21 @@ void PullOutFiles::put_profile(const PullOutState& s, const FibreProfile& p)
 void write_pull_out_plots(const std::filesystem::path& folder)
 {
     const HistoryTable rows = read_history_csv(folder / rows_name), profiles = read_history_csv(folder / profiles_name);
-    const auto scaled = [](std::vector<double> x, double by) {
-        for (double& v : x) v *= by;
-        return x;
-    };
-    const std::vector<double> stress = scaled(rows.column("end_stress_Pa"), 1e-6);
+    const std::vector<double>& stress = rows.column("end_stress_Pa");
     if (stress.size() < 2) return;
-    plot_curves(folder / "plots" / "pull_out", "Fibre pull-out", "slip at the exit, displacement of the end [mm]",
-                "stress at the end [MPa]",
-                {{"slip at the exit", scaled(rows.column("end_slip_m"), 1e3), stress},
-                 {"displacement of the end", scaled(rows.column("end_displacement_m"), 1e3), stress}});
+    plot_curves(folder / "plots" / "pull_out", "Fibre pull-out", "slip at the exit, displacement of the end [m]",
+                "stress at the end [Pa]",
+                {{"slip at the exit", rows.column("end_slip_m"), stress},
+                 {"displacement of the end", rows.column("end_displacement_m"), stress}});
     std::map<double, std::pair<Curve, Curve>> of_damage;
     const std::vector<double>& D = profiles.column("mean_damage");
     for (std::size_t i = 0; i < profiles.rows(); ++i) {
         auto& [shear, tension] = of_damage[D[i]];
         shear.label = tension.label = fmt::format("mean damage {:.2g}", D[i]);
         shear.x.push_back(profiles.column("z_m")[i]);
-        shear.y.push_back(1e-6 * profiles.column("tau_Pa")[i]);
+        shear.y.push_back(profiles.column("tau_Pa")[i]);
         tension.x.push_back(profiles.column("z_m")[i]);
-        tension.y.push_back(1e-6 * profiles.column("sigma_f_Pa")[i]);
+        tension.y.push_back(profiles.column("sigma_f_Pa")[i]);
     }
     std::vector<Curve> shears, tensions;
     for (auto& [damage, both] : of_damage) {
@@ -139,9 +135,9 @@ void write_pull_out_plots(const std::filesystem::path& folder)
         tensions.push_back(std::move(both.second));
     }
     if (shears.empty()) return;
-    plot_curves(folder / "plots" / "fibre_shear", "Shear of the interface", "from the embedded end [m]", "shear [MPa]",
+    plot_curves(folder / "plots" / "fibre_shear", "Shear of the interface", "from the embedded end [m]", "shear [Pa]",
                 shears);
-    plot_curves(folder / "plots" / "fibre_stress", "Stress of the fibre", "from the embedded end [m]", "stress [MPa]",
+    plot_curves(folder / "plots" / "fibre_stress", "Stress of the fibre", "from the embedded end [m]", "stress [Pa]",
                 tensions);
 }
 

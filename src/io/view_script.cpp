@@ -9,6 +9,7 @@ std::string view_script()
 #
 #   paraview --script=view.py
 #   pvpython view.py --save picture.png [--view cleavage] [--time last|first|SECONDS] [--color FIELD] [--size 1600x1200]
+#                    [--from x|-y|z] [--whole]
 #
 # Three views, in ParaView a tab each above the picture, of which the first is in front; --view takes one of them alone:
 #   stress     grains coloured by GRAIN_COLOR or --color
@@ -16,7 +17,8 @@ std::string view_script()
 #   cleavage   grains coloured by the load over the load that splits them (K/K_c)
 # In each, "cracks between grains" (coloured by what broke them) and "cracks through grains" are layers of their own, as
 # are walls, bonds and contacts: the eyes beside their names in the Pipeline Browser turn them on and off. Spheres are
-# points drawn as balls of their radius, coloured as grains are; bonds between spheres are lines.
+# points drawn as balls of their radius, coloured as grains are; bonds between spheres are lines. A fibre in its matrix is
+# shown cut open, unless --whole. The picture is seen from z, or from the side where that is less than half as deep.
 #
 # Written by grainfrac beside the .pvd files, which it finds wherever the folder is moved to. Layers whose .pvd is
 # missing are left out. The choices below are meant to be changed.
@@ -42,9 +44,13 @@ CLUSTER_COLORS = [         # the largest first
 SMALL_CLUSTERS = (0.45, 0.45, 0.45)  # all others
 CRACK_EDGE_WIDTH = 4.0     # pixels
 LOW_TO_HIGH = [(1.0, 1.0, 1.0), (0.35, 0.38, 0.42)]  # lowest to highest value; cracks stand out
+SPHERES_LOW_TO_HIGH = [(0.95, 0.95, 0.80), (0.35, 0.70, 0.70), (0.10, 0.25, 0.50)]  # their own shading takes some contrast
 NEGATIVE_TO_POSITIVE = [(0.20, 0.42, 0.70), (1.0, 1.0, 1.0), (0.90, 0.55, 0.10)]  # of one with signs
 CLEAVAGE_COLORS = [(1.0, 1.0, 1.0), (1.0, 0.85, 0.50), (0.55, 0.25, 0.02)]  # from 0 to 1
 VIEWS = ("stress", "clusters", "cleavage")
+SIDES = {"z": (2, 1.0, 0, 1), "-y": (1, -1.0, 0, 2), "x": (0, 1.0, 1, 2)}  # axis and sign to the eye, across, up
+SEEN_FROM_THE_SIDE = 2.0   # what is higher than this, over its depth
+WITH_FIBRE = 0.5           # the same of a matrix with a fibre in it
 TITLES = {                 # of the colour legends
     "von_mises": "von Mises stress [Pa]", "pressure": "mean stress [Pa]", "stress": "stress%s [Pa]",
     "velocity": "velocity%s [m/s]", "displacement": "displacement%s [m]", "damage": "damage of its bonds",
@@ -59,6 +65,8 @@ def arguments():
     parser.add_argument("--time", default="last", help="last, first, or a time in seconds (the nearest frame is taken)")
     parser.add_argument("--color", default=GRAIN_COLOR, help="field of the grains in view stress; or stress:XX")
     parser.add_argument("--size", default="1600x1200", help="of the picture, in pixels")
+    parser.add_argument("--from", dest="side", choices=list(SIDES), help="where the eye is (default: z, or a narrow side)")
+    parser.add_argument("--whole", action="store_true", help="do not cut a matrix open that has a fibre in it")
     return parser.parse_known_args(getattr(sys, "argv", [""])[1:])[0]  # ParaView's own arguments are none of ours
 
 
@@ -148,15 +156,14 @@ def usual_range(layer, name, component, association):
 def color_by_field(display, layer, field, view, association, with_legend):
     name, _, component = field.partition(":")
     ColorBy(display, (association, name, component) if component else (association, name))
-    if not with_legend:  # the grains' colours
-        display.SetScalarBarVisibility(view, False)
+    if not with_legend:  # the grains' colours, and their legend
         return
     table = GetColorTransferFunction(name)
     if name == "cleavage":
         low, high, colors = 0.0, 1.0, CLEAVAGE_COLORS
     else:
         low, high = usual_range(layer, name, component, association)
-        colors = LOW_TO_HIGH
+        colors = LOW_TO_HIGH if association == "CELLS" else SPHERES_LOW_TO_HIGH
         if low < 0.0:
             colors, high = NEGATIVE_TO_POSITIVE, max(-low, high)
             low = -high
@@ -234,41 +241,95 @@ def show_hidden(layer, view, field, representation, association="CELLS"):
     Hide(layer, view)
 
 
-def go_to(time):
+def go_to(time, layers):
+    """To the frame that is meant; returns its time."""
     scene = GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
-    steps = list(GetTimeKeeper().TimestepValues or [])
-    if time == "first":
-        scene.GoToFirst()
-    elif time == "last" or not steps:
-        scene.GoToLast()
+    steps = sorted({t for layer in layers.values() if layer is not None for t in layer.TimestepValues})
+    if not steps:
+        return 0.0
+    if time in ("first", "last"):
+        scene.AnimationTime = steps[0 if time == "first" else -1]
     else:
         scene.AnimationTime = min(steps, key=lambda t: abs(t - float(time)))
+    return scene.AnimationTime
 
 
-def place_camera(view, shown):
-    """Along -z, the layers filling the height, left of the legends."""
+def bounds_of(layers):
+    """Of the grains and spheres together; of spheres one has the centres."""
+    boxes = []
+    for layer in layers:
+        radius = layer.PointData["radius"]
+        margin = radius.GetRange()[1] if radius is not None else 0.0
+        boxes.append([x + (margin if k % 2 else -margin) for k, x in enumerate(layer.GetDataInformation().GetBounds())])
+    return [(max if k % 2 else min)(box[k] for box in boxes) for k in range(6)]
+
+
+def side_to_look_from(shown, least_height):
+    bounds = [layer.GetDataInformation().GetBounds() for layer in shown]  # of centres: a beam that sags has a height
+    extent = [max(b[2 * k + 1] for b in bounds) - min(b[2 * k] for b in bounds) for k in range(3)]
+    narrow = "-y" if extent[1] <= extent[0] else "x"
+    return narrow if extent[2] > least_height * extent[SIDES[narrow][0]] else "z"
+
+
+def cut_open(layers, shown, side, time):
+    """The half of a matrix that is nearer to the eye is left out, the fibre in the middle is not."""
+    axis, sign, _, _ = SIDES[side]
+    bounds = bounds_of(shown)
+    normal = [sign if k == axis else 0.0 for k in range(3)]
+    middle = [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)]
+    for name in ("grains", "spheres", "cracks"):
+        if not has_cells(layers[name]):
+            continue
+        half = Clip(registrationName=name + ", cut open", Input=layers[name])
+        half.ClipType = "Plane"
+        half.ClipType.Normal = normal
+        half.ClipType.Origin = middle
+        half.Crinkleclip = 1 if name == "grains" else 0
+        if name == "spheres":
+            half.ClipType.Offset = layers[name].PointData["radius"].GetRange()[1]  # a lattice may lie a little aside
+        half.Invert = 1
+        half.UpdatePipeline(time)
+        Hide(layers[name])
+        layers[name] = half
+
+
+def has_fibre(layers):
+    """Spheres in grains, or of two parts."""
+    spheres = layers["spheres"]
+    if not has_cells(spheres):
+        return False
+    part = spheres.PointData["part"]
+    low, high = part.GetRange() if part is not None else (0.0, 0.0)
+    return has_cells(layers["grains"]) or high > low
+
+
+def place_camera(view, shown, side):
+    """The layers fill the height, left of the legends."""
+    axis, sign, across, up = SIDES[side]
     view.CameraParallelProjection = 1
-    view.CameraViewUp = [0.0, 1.0, 0.0]
+    view.CameraViewUp = [1.0 if k == up else 0.0 for k in range(3)]
     if not shown:
         ResetCamera(view)
         return
-    boxes = [layer.GetDataInformation().GetBounds() for layer in shown]
-    bounds = [(max if k % 2 else min)(box[k] for box in boxes) for k in range(6)]
+    bounds = bounds_of(shown)
     center = [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)]
-    extent = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
+    extent = [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
     width, height = view.ViewSize
     # Half of the view's height; the legends take the right quarter.
-    scale = 0.55 * max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) * height / (0.74 * width))
-    center[0] += 0.11 * 2.0 * scale * width / height
+    scale = 0.55 * max(extent[up], extent[across] * height / (0.74 * width))
+    center[across] += 0.11 * 2.0 * scale * width / height
     view.CameraFocalPoint = center
-    view.CameraPosition = [center[0], center[1], center[2] + 5.0 * extent]
+    view.CameraPosition = [x + (sign * 5.0 * max(extent) if k == axis else 0.0) for k, x in enumerate(center)]
     view.CameraParallelScale = scale
     view.CenterOfRotation = center
 
 
 def open_layers():
-    layers = {name: open_layer(name) for name in ("grains", "spheres", "bonds", "contacts", "cracks", "walls")}
+    return {name: open_layer(name) for name in ("grains", "spheres", "bonds", "contacts", "cracks", "walls")}
+
+
+def split_cracks(layers):
     cracks = layers["cracks"]
     for name, mode in (("cracks between grains", 0), ("cracks through grains", 1)):
         if cracks is None:
@@ -276,10 +337,20 @@ def open_layers():
             continue
         faces = only_mode(cracks, name, mode)
         layers[name] = (faces, ExtractEdges(registrationName=name + ", outlines", Input=faces))
-    return layers
 
 
-def fill_view(view, layers, field):
+def update(layers, time):
+    for layer in layers.values():
+        for source in layer if isinstance(layer, tuple) else (layer,):
+            if source is not None:
+                source.UpdatePipeline(time)
+
+
+def bodies_of(layers):
+    return [layer for layer in (layers["grains"], layers["spheres"]) if has_cells(layer)]
+
+
+def fill_view(view, layers, field, side):
     # A layer without cells at this time has no fields to be coloured by; it is shown all the same, plainly.
     if layers["grains"] is not None:
         show_grains(layers["grains"], view, field)
@@ -297,7 +368,7 @@ def fill_view(view, layers, field):
         show_hidden(layers["bonds"], view, "damage", "Surface")
     if layers["contacts"] is not None:
         show_hidden(layers["contacts"], view, "normal_force", "Points", "POINTS")
-    place_camera(view, [layer for layer in (layers["grains"], layers["spheres"]) if has_cells(layer)])
+    place_camera(view, bodies_of(layers), side)
 
 
 def new_view(name, first):
@@ -332,12 +403,16 @@ def main():
         if options.save:
             view.ViewSize = [int(width), int(height)]  # or the text is scaled up with the picture
         if not views:
-            go_to(options.time)
-            for layer in layers.values():
-                for source in layer if isinstance(layer, tuple) else (layer,):
-                    if source is not None:
-                        source.UpdatePipeline(GetAnimationScene().AnimationTime)
-        fill_view(view, layers, fields[name])
+            time = go_to(options.time, layers)
+            update(layers, time)
+            shown = bodies_of(layers)
+            fibre = has_fibre(layers)
+            side = options.side or (side_to_look_from(shown, WITH_FIBRE if fibre else SEEN_FROM_THE_SIDE) if shown else "z")
+            if fibre and not options.whole:
+                cut_open(layers, shown, side, time)
+            split_cracks(layers)
+            update(layers, time)
+        fill_view(view, layers, fields[name], side)
         views.append(view)
     SetActiveView(views[0])
     front = layers["grains"] if has_cells(layers["grains"]) else layers["spheres"]

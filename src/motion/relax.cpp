@@ -193,6 +193,11 @@ Relaxation::Relaxation(const Model& model, const State& state)
 {
 }
 
+void Relaxation::renew_masses(const Model& model, const State& state)
+{
+    masses_ = fictitious_masses(model, state, step_length, mass_safety);
+}
+
 Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& settings,
                           const std::function<bool()>& interrupted)
 {

@@ -26,11 +26,13 @@ struct Relaxed {
     bool at_rest = false;   ///< else most_steps passed, or it was interrupted
 };
 
-/// Fictitious masses are made once and serve as long as the bonds only get softer; masses of the state are its own
-/// again when relax() returns.
+/// Fictitious masses serve as long as the bonds only get softer and nothing has moved far; masses of the state are its
+/// own again when relax() returns.
 class Relaxation {
 public:
     Relaxation(const Model& model, const State& state);
+    /// After a move that changed the arms of forces.
+    void renew_masses(const Model& model, const State& state);
     /// Driven bodies stay where they are. Time does not advance, the step count does. `interrupted` is asked now and
     /// then.
     Relaxed relax(Model& model, State& state, const RelaxSettings& settings,

@@ -100,3 +100,37 @@ TEST_CASE("wrong input of calibrate: exit 2, one message with the place")
     std::ofstream(w.folder / "none.toml") << text_of(example).substr(0, text_of(example).find("\n[[calibration]]"));
     CHECK(w.calibrate("none.toml --set test.kind='\"brazilian\"'") == 2);
 }
+
+TEST_CASE("calibration of grains from a file, whose interfaces soften")
+{
+    Workplace w;
+    const std::string grains =
+        "[simulation]\ntitle = \"grains\"\n[materials.sic]\ndensity = 3100\nyoung_modulus = \"410 GPa\"\n"
+        "poisson_ratio = 0.17\n[[parts]]\nname = \"bar\"\nmaterial = \"sic\"\n";
+    std::ofstream(w.folder / "grains.toml")
+        << grains
+        << "generator = \"hexagonal_prisms\"\nside = \"0.6 mm\"\nthickness = \"1 mm\"\nregion = { shape = \"box\", "
+           "size = "
+           "[\"6 mm\", \"6 mm\", \"12 mm\"] }\nat_region_boundary = \"cut\"\n[[stages]]\nname = \"none\"\nduration = "
+           "\"1 us\"\n";
+    REQUIRE(std::system(("cd " + w.folder.string() + " && " GF_PROGRAM " generate grains.toml -q").c_str()) == 0);
+    const std::string wanted = grains +
+                               "generator = \"file\"\nfile = \"grains.microstructure.json\"\n[[bonds]]\nbetween = "
+                               "[\"bar\", \"bar\"]\ntensile_strength = \"100 MPa\"\ncohesion = \"300 MPa\"\n"
+                               "fracture_energy_I = \"20 J/m^2\"\nfracture_energy_II = \"60 J/m^2\"\n"
+                               "[[calibration]]\npart = \"bar\"\nyoung_modulus = \"300 GPa\"\n";
+    std::ofstream(w.folder / "file.toml") << wanted;
+    CAPTURE(w.err);
+    REQUIRE(w.calibrate("file.toml --no-report") == 0);
+    const nlohmann::json s =
+        nlohmann::json::parse(text_of(w.folder / "file.calibration/summary.json"))["calibration"][0];
+    CHECK(s["trials"].get<int>() <= 4);
+    CHECK(s["young_modulus_Pa"].get<double>() == Approx(300e9).epsilon(5e-3));
+    // With k_s = k_n the columns, 1 mm high, are springs in a row: E = k_n h for the bonds of one layer with the next.
+    CHECK(s["normal_stiffness_Pa_per_m"].get<double>() == Approx(300e9 / 1e-3).epsilon(0.01));
+
+    std::ofstream(w.folder / "section.toml") << wanted << "measure = \"section\"\n";
+    CHECK(w.calibrate("section.toml --no-report") == 2);
+    CHECK(w.err.find("calibration[0].area: missing: the section of a sample from a file is not known") !=
+          std::string::npos);
+}
