@@ -29,6 +29,20 @@ void check_host(Checks& checks, const PartSpec& p, const std::string& key)
     }
 }
 
+/// A fibre taken from a packing leaves some of it around itself.
+void check_taken(Checks& checks, const PartSpec& p, const std::string& path)
+{
+    const std::string key = path + ".region.diameter";
+    for (const PartSpec& host : checks.input.parts) {
+        if (host.name != p.inside || p.region.shape != "cylinder" || host.region.shape != "cylinder" ||
+            p.region.axis != host.region.axis || !checks.given(key) || !checks.right(key))
+            continue;
+        if (p.region.diameter >= host.region.diameter)
+            checks.fail(key, fmt::format("{:.6g} m; must be smaller than the {:.6g} m of \"{}\"", p.region.diameter,
+                                         host.region.diameter, host.name));
+    }
+}
+
 void check_chain(Checks& checks, const PartSpec& p, const std::string& path)
 {
     const FibreSpec& f = p.fibre;
@@ -90,6 +104,7 @@ void check_kind(Checks& checks, const PartSpec& p, const std::string& path)
         checks.fail(path + ".region", "has no meaning here; it goes with any generator but \"chain\"");
     if (checks.given(path + ".inside") && checks.right(path + ".inside")) check_host(checks, p, path + ".inside");
     if (p.generator == "chain") check_chain(checks, p, path);
+    if (p.generator == "taken") check_taken(checks, p, path);
     if (p.generator == "random_dense" && checks.right(path + ".solid_fraction") && checks.right(path + ".size_ratio")) {
         const double most = densest_random_packing(p.size_ratio);
         if (p.solid_fraction > most) {

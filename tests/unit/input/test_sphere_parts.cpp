@@ -156,6 +156,10 @@ const Wrong wrong_parts[] = {
     {"generator = \"chain\"\ndiameter = \"0.4 m\"\ninside = \"matrix\"\n" + chain_line,
      "generator = \"taken\"\ninside = \"matrix\"\nregion = { shape = \"sphere\", diameter = 20 }",
      "error: FILE:21: parts[1].region = { shape = \"sphere\", diameter = 20 }: takes all spheres of \"matrix\"\n"},
+    {"generator = \"chain\"\ndiameter = \"0.4 m\"\ninside = \"matrix\"\n" + chain_line,
+     "generator = \"taken\"\ninside = \"matrix\"\nregion = { shape = \"cylinder\", diameter = 4, height = 1, axis = "
+     "\"x\" }",
+     "error: FILE:21: parts[1].region.diameter = 4: 4 m; must be smaller than the 4 m of \"matrix\"\n"},
     // the fibre
     {chain_line, "", "error: FILE:15: parts[1].fibre: missing; required with generator = \"chain\": a table\n"},
     {chain_line, "fibre = { from = [-2, 0, 0] }",
