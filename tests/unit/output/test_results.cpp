@@ -281,6 +281,12 @@ TEST_CASE("plots of nothing, of one point and of gaps", "[output][plots]")
     plot_curves(folder / "point", "Point #1", "x [m]", "y [N]", {{"a", {1.0}, {2.0}}});
     plot_curves(folder / "gaps", "Gaps", "x [m]", "y [N]",
                 {{"a", {0, 1, 2, 3}, {0, nan, 2, 3}}, {"b", {0, 3}, {1, INFINITY}}});
+    plot_wall_forces(folder / "no_walls", {{"time_s"}, {{0.0, 1.0}}});
+    CHECK_FALSE(fs::exists(folder / "no_walls.svg"));
+    const HistoryTable walls{{"time_s", "lid_force_x_N", "lid_force_y_N", "lid_contacts"},
+                             {{0.0, 1.0}, {0.0, 5.0}, {0.0, 0.01}, {1.0, 2.0}}};
+    plot_wall_forces(folder / "walls", walls);
+    CHECK(fs::exists(folder / "walls.svg"));
     plot_crack_map(folder / "map", {}, {}, {});
     plot_crack_orientation(folder / "rose", {});
     plot_fragment_sizes(folder / "sizes", {}, {});
