@@ -23,7 +23,8 @@ if(GF_FUZZ)
     set(GF_SANITIZE address,undefined,float-cast-overflow,fuzzer-no-link)
 endif()
 if(GF_SANITIZE)
-    # Not the checks of every pointer that is followed: a third of the build's time, and the address sanitizer finds those.
+    # Not the checks of every pointer that is followed (null, misaligned, of another type): a third of the build's time. A
+    # null pointer crashes with a trace all the same.
     target_compile_options(gf_options INTERFACE
         $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${GF_SANITIZE};-fno-sanitize=null,alignment,object-size,vptr>
         $<$<COMPILE_LANGUAGE:CXX>:-fno-omit-frame-pointer;-fno-sanitize-recover=all>)

@@ -215,9 +215,9 @@ void contact_forces(const Model& model, State& state, double dt)
     parallel_for(model.device, state.contacts.size(), kernel(model, state, dt, model.device));
 }
 
-void contact_forces(const Model& model, State& state, const std::vector<int>& contacts)
+void contact_forces(const Model& model, State& state, const std::vector<int>& contacts, double dt)
 {
-    serial_for(contacts, kernel(model, state, 0.0, Device::cpu));
+    serial_for(contacts, kernel(model, state, dt, Device::cpu));
 }
 
 }  // namespace grainfrac

@@ -51,16 +51,24 @@ struct FindContacts {
             apart_until[pair] = 0.0;
             return;
         }
-        const int i = a[pair], j = b[pair];
+        look(pair);
+    }
+
+    /// By itself, so that passing over a pair costs no more than asking.
+    GF_OUT_OF_LINE void look(int pair) const
+    {
+        const int i = a[pair], j = b[pair], shape_i = shape[i], shape_j = shape[j];
         const double centres2 = norm2(position[j] - position[i]);
-        const double reach = shapes.bounding_radius[shape[i]] + shapes.bounding_radius[shape[j]];
+        const double reach = shapes.bounding_radius[shape_i] + shapes.bounding_radius[shape_j];
         double clearance = 0.0;
         ContactPoint c;
         if (centres2 >= reach * reach) {
             clearance = std::sqrt(centres2) - reach;
+        } else if (shapes.is_ball(shape_i) && shapes.is_ball(shape_j)) {  // which do not wait for orientations
+            c = ball_manifold({shapes, shape_i, position[i], {}}, {shapes, shape_j, position[j], {}}, clearance);
         } else {
-            c = contact_manifold({shapes, shape[i], position[i], orientation[i]},
-                                 {shapes, shape[j], position[j], orientation[j]}, clearance, corners[pair]);
+            c = contact_manifold({shapes, shape_i, position[i], orientation[i]},
+                                 {shapes, shape_j, position[j], orientation[j]}, clearance, corners[pair]);
         }
         apart_until[pair] = clearance > 0.0 ? travel + closing_share * clearance : 0.0;
         const int touch = c.overlap_energy > 0.0 ? 1 : 0;

@@ -40,7 +40,7 @@ struct ContactBody {
     Quat orientation;
 
     GF_FN double radius() const { return shapes.radius[shape]; }
-    GF_FN bool is_ball() const { return shapes.vertex_begin[shape + 1] - shapes.vertex_begin[shape] == 1; }
+    GF_FN bool is_ball() const { return shapes.is_ball(shape); }
     GF_FN PlacedCore core() const
     {
         const int first = shapes.vertex_begin[shape];
@@ -361,12 +361,12 @@ GF_FN double reference_area(const ContactBody& a, const ContactBody& b)
     return std::numbers::pi * r * r;
 }
 
-/// Of two balls.
+/// Of two balls: a ball's only corner is its centre of mass.
 GF_FN ClosestPoints ball_points(const ContactBody& a, const ContactBody& b)
 {
     ClosestPoints r;
-    r.a = a.core().at(0);
-    r.b = b.core().at(0);
+    r.a = a.position;
+    r.b = b.position;
     r.distance = norm(r.b - r.a);
     return r;
 }
@@ -459,24 +459,35 @@ struct Potential {
 
 }  // namespace manifold_detail
 
+/// Whether there is a contact to be looked at; if not, what `c` is then.
+GF_FN bool they_press(const ClosestPoints& near, double radii, double& clearance, ContactPoint& c)
+{
+    clearance = larger(0.0, near.distance - radii);
+    if (near.distance <= core_contact_share * radii) c.depth = radii;
+    return !(near.distance >= (1.0 - least_penetration) * radii || near.distance <= core_contact_share * radii);
+}
+
+/// Contact of two balls, however they are turned.
+GF_FN ContactPoint ball_manifold(const ContactBody& a, const ContactBody& b, double& clearance)
+{
+    using namespace manifold_detail;
+    ContactPoint c;
+    const ClosestPoints near = ball_points(a, b);
+    return they_press(near, a.radius() + b.radius(), clearance, c) ? ball_contact(a, b, near) : c;
+}
+
 /// Contact of two bodies; normal zero if they are apart. depth = the summed dilation radii marks penetrating cores.
 /// `clearance`: distance of the surfaces, 0 if they touch [m]. `corners`: of the last search, or none.
 GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, double& clearance,
                                     ClosestCorners& corners)
 {
     using namespace manifold_detail;
+    if (a.is_ball() && b.is_ball()) return ball_manifold(a, b, clearance);
     ContactPoint c;
     const double radii = a.radius() + b.radius();
-    const bool ball_a = a.is_ball(), ball_b = b.is_ball();
-    const ClosestPoints near =
-        ball_a && ball_b ? ball_points(a, b) : closest_points(a.core(), b.core(), b.position - a.position, corners);
-    clearance = larger(0.0, near.distance - radii);
-    if (near.distance >= (1.0 - least_penetration) * radii) return c;
-    if (near.distance <= core_contact_share * radii) {
-        c.depth = radii;
-        return c;
-    }
-    if (ball_a || ball_b) return ball_contact(a, b, near);
+    const ClosestPoints near = closest_points(a.core(), b.core(), b.position - a.position, corners);
+    if (!they_press(near, radii, clearance, c)) return c;
+    if (a.is_ball() || b.is_ball()) return ball_contact(a, b, near);
     const Vec3 n = (near.b - near.a) * (1.0 / near.distance);
     const double A_ref = reference_area(a, b);
     const double g_p = radii - near.distance;

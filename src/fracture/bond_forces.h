@@ -15,9 +15,9 @@ void bond_forces(const Model& model, State& state, double dt);
 void bond_forces(const Model& model, State& state, const std::vector<int>& interfaces,
                  const std::vector<int>& parallels, const std::vector<int>& sphere_bonds);
 
-/// The kind between spheres: sphere_bond_forces.cpp.
+/// The kind between spheres: sphere_bond_forces.cpp; all of them, or some, one after the other on the host.
 void sphere_bond_forces(const Model& model, State& state, double dt);
-void sphere_bond_forces(const Model& model, State& state, const std::vector<int>& bonds);
+void sphere_bond_forces(const Model& model, State& state, const std::vector<int>& bonds, double dt = 0.0);
 
 /// Incremental bonds need a first normal; call once when bonds are made.
 void start_bonds(const Model& model, State& state);

@@ -206,9 +206,9 @@ void sphere_bond_forces(const Model& model, State& state, double dt)
     parallel_for(model.device, state.sphere_bonds.size(), kernel(model, state, dt, model.device));
 }
 
-void sphere_bond_forces(const Model& model, State& state, const std::vector<int>& bonds)
+void sphere_bond_forces(const Model& model, State& state, const std::vector<int>& bonds, double dt)
 {
-    serial_for(bonds, kernel(model, state, 0.0, Device::cpu));
+    serial_for(bonds, kernel(model, state, dt, Device::cpu));
 }
 
 }  // namespace grainfrac

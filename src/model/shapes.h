@@ -74,6 +74,9 @@ struct ShapesView {
     View<const Vec3> face_normals;
     View<const double> face_offsets;
     View<const std::int32_t> loop_begin, loops;
+
+    /// One corner, its centre of mass.
+    GF_FN bool is_ball(int shape) const { return vertex_begin[shape + 1] - vertex_begin[shape] == 1; }
 };
 ShapesView view(const Shapes& shapes, Device device);
 
