@@ -251,15 +251,15 @@ void part_fibres(const Case& c, Model& model, const State& state, const BondTabl
         return std::any_of(chains.begin(), chains.end(),
                            [&](const FibreChain& chain) { return grains_reach_in(model, state, chain, grains); });
     };
-    const int n = static_cast<int>(model.groups.size());
     for (const FibrePair& pair : fibre_pairs(c, table)) {
         const PartSpec &fibre = part_at(c, pair.fibre), &matrix = part_at(c, pair.matrix);
         const bool told = std::any_of(c.contacts.begin(), c.contacts.end(), [&](const ContactSpec& s) {
             return s.between == std::array{fibre.name, matrix.name} || s.between == std::array{matrix.name, fibre.name};
         });
         if (told || !overlaps(pair)) continue;
-        LinearContact& law = model.contact_laws.host()[static_cast<std::size_t>(
-            model.contact_law_of[static_cast<std::size_t>(pair.fibre * n + pair.matrix)])];
+        const std::size_t at =
+            static_cast<std::size_t>(pair.fibre) * model.groups.size() + static_cast<std::size_t>(pair.matrix);
+        LinearContact& law = model.contact_laws.at(model.contact_law_of[at]);
         law.area_stiffness = law.friction = 0.0;
     }
 }

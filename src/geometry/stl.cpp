@@ -33,7 +33,7 @@ struct RawPoint {
     {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::strong_ordering order = std::strong_order(a.x[k], b.x[k]);
-            if (order != 0) return order < 0;
+            if (std::is_neq(order)) return std::is_lt(order);
         }
         return false;
     }
