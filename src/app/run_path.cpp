@@ -41,11 +41,15 @@ Ending run_path(LiveRun& run, const Stage& stage)
         const auto before = Clock::now();
         const State last_state = run.state;
         const PullOutPath last_path = *run.path;
+        const Buffer<std::int32_t> last_spread_bodies = run.model.spread_bodies;  // all of the model that may change
+        const Buffer<double> last_spread_area = run.model.spread_area;
         const PullOutPath::Found found = run.path->next(run.model, run.state, [] { return pending_signal() != 0; });
         run.record.phases.steps += seconds_since(before);
         if (pending_signal() != 0) {  // a relaxation is not broken off and taken up again with the same bits
             run.state = last_state;
             run.path.emplace(last_path);
+            run.model.spread_bodies = last_spread_bodies;
+            run.model.spread_area = last_spread_area;
             return stop_for_signal(run);
         }
         if (found == PullOutPath::Found::end) {

@@ -288,6 +288,8 @@ bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector
     double share = most_used_bond(model, state).share, off = share - 1.0;
     if (off <= on_surface || rubs(model, state, interfaces)) return true;
     const State too_far = state;
+    const Relaxation relaxation_there = relaxation_;
+    const Relaxed last_there = last_;
     for (int k = 0; k < most_scalings; ++k) {
         const Ledger before = energy_ledger(model, state);
         scale(model, state, 1.0 / share);
@@ -295,10 +297,12 @@ bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector
         if (!relax(model, state, interrupted)) return false;
         share = most_used_bond(model, state).share;
         if (std::fabs(share - 1.0) <= on_surface) return true;
-        if (std::fabs(share - 1.0) > std::fabs(off)) break;
+        if (share <= 0.0 || std::fabs(share - 1.0) > std::fabs(off)) break;
         off = share - 1.0;
     }
     state = too_far;  // what broke before has moved so that all is no longer in proportion
+    relaxation_ = relaxation_there;
+    last_ = last_there;
     remember_grip(state);
     return true;
 }

@@ -3,6 +3,7 @@
 // the interface yields all is linear, so that the load at which a bond breaks is strength over stress at any lower
 // load.
 #include "support/pull_out.h"
+#include "support/spheres.h"
 
 #include <catch2/catch.hpp>
 
@@ -182,5 +183,33 @@ TEST_CASE("a matrix tears at the load that equilibrium foretells", "[pull_out]")
         // what comes off the face that is held in the mean knocks against what does not
         CHECK(e.relative_error() < (c.test.support == "held" ? 1e-6 : 2e-3));
         for (const PullOutState& now : run.path) CHECK(std::fabs(now.support_stress - now.end_stress) < 1e-4 * first);
+    }
+}
+
+TEST_CASE("the most used bond breaks, however it lies and is bent", "[pull_out]")
+{
+    int draw = 0;
+    for (int k = 0; k < 500; ++k) {
+        SphereBondLaw law = unbreakable_bond(false);
+        law.strength = {1e6, k % 2 == 0 ? 1e8 : 1e6, 0.3, 1.0, k % 3 == 0, true};
+        Assembly a = sphere_assembly(law);
+        const double small = 0.3 + 0.2 * std::fabs(random_vector(draw).x);
+        const Vec3 direction = normalized(random_vector(draw));
+        sphere(a, random_vector(draw), 0.5);
+        sphere(a, a.state.bodies.position[0] + (0.5 + small) * direction, small);
+        join(a, 0, 1, {1e9, 4e8, 1e8, 5e7});
+        shift(a.state, 1, 1e-4 * (random_vector(draw) + direction));
+        turn(a.state, 0, random_turn(draw, 1e-3));
+        turn(a.state, 1, random_turn(draw, 1e-3));
+        evaluate_bonds(a);
+        const MostUsedBond most = most_used_bond(a.model, a.state);
+        REQUIRE(most.bond == 0);
+        const double stored = a.state.sphere_bonds.stored_energy[0];
+        break_bond(a.model, a.state, most);
+        REQUIRE(a.state.sphere_bonds.cause[0] != static_cast<int>(BondCause::whole));
+        CHECK(a.state.sphere_bonds.strength_factor[0] == 1.0);
+        CHECK(a.state.sphere_bonds.fracture_work[0] == Approx(stored).epsilon(1e-12));
+        CHECK(a.state.sphere_bonds.stored_energy[0] == 0.0);
+        CHECK(most_used_bond(a.model, a.state).bond == -1);
     }
 }
