@@ -354,6 +354,22 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
 }
 
+std::optional<PullOutPath::Found> next_or_none(std::optional<PullOutPath>& path, Model& model, State& state,
+                                               const std::function<bool()>& interrupted)
+{
+    const PullOutPath last_path = *path;
+    const State last_state = state;
+    const Buffer<std::int32_t> spread_bodies = model.spread_bodies;  // what comes off a face leaves the model's list
+    const Buffer<double> spread_area = model.spread_area;
+    const PullOutPath::Found found = path->next(model, state, interrupted);
+    if (!interrupted()) return found;
+    path.emplace(last_path);
+    state = last_state;
+    model.spread_bodies = spread_bodies;
+    model.spread_area = spread_area;
+    return std::nullopt;
+}
+
 /// Half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes.
 PullOutPath::Found PullOutPath::next_event(Model& model, State& state, const std::vector<int>& interfaces,
                                            const std::function<bool()>& interrupted)
