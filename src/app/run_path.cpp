@@ -39,25 +39,20 @@ Ending run_path(LiveRun& run, const Stage& stage)
     if (!run.path) make_path(run);
     while (true) {
         const auto before = Clock::now();
-        const State last_state = run.state;
-        const PullOutPath last_path = *run.path;
-        const PullOutPath::Found found = run.path->next(run.model, run.state, [] { return pending_signal() != 0; });
+        const std::optional<PullOutPath::Found> found =
+            next_or_none(run.path, run.model, run.state, [] { return pending_signal() != 0; });
         run.record.phases.steps += seconds_since(before);
-        if (pending_signal() != 0) {  // a relaxation is not broken off and taken up again with the same bits
-            run.state = last_state;
-            run.path.emplace(last_path);
-            return stop_for_signal(run);
-        }
-        if (found == PullOutPath::Found::end) {
+        if (!found) return stop_for_signal(run);
+        if (*found == PullOutPath::Found::end) {
             return {exit_code::done, "the interface is broken"};
         }
-        if (found == PullOutPath::Found::not_at_rest) {
+        if (*found == PullOutPath::Found::not_at_rest) {
             return {exit_code::unstable,
                     fmt::format("unstable: no equilibrium after {} steps, the mean residual is {:.2g} of the mean "
                                 "force of the bonds; raise test.relaxed, or hold what can move freely",
                                 run.path->last().steps, run.path->last().residual)};
         }
-        if (found == PullOutPath::Found::not_softening) {
+        if (*found == PullOutPath::Found::not_softening) {
             return {exit_code::unstable,
                     "unstable: with friction no state was found where the interface softens; lower test.relaxed, or "
                     "use test.control = \"displacement\""};

@@ -45,7 +45,7 @@ bool PullOutPath::break_bonds(Model& model, State& state, MostUsedBond most, con
     do {
         break_bond(model, state, most);
         let_loose_go(pull_out_, model, state);
-        if (!relax(model, state, interrupted)) return false;
+        if (!relax(model, state, interrupted) || (interrupted && interrupted())) return false;
         most = most_used_bond(model, state);
     } while (most.share > 1.0);
     return true;

@@ -288,6 +288,8 @@ bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector
     double share = most_used_bond(model, state).share, off = share - 1.0;
     if (off <= on_surface || rubs(model, state, interfaces)) return true;
     const State too_far = state;
+    const Relaxation relaxation_there = relaxation_;
+    const Relaxed last_there = last_;
     for (int k = 0; k < most_scalings; ++k) {
         const Ledger before = energy_ledger(model, state);
         scale(model, state, 1.0 / share);
@@ -295,10 +297,12 @@ bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector
         if (!relax(model, state, interrupted)) return false;
         share = most_used_bond(model, state).share;
         if (std::fabs(share - 1.0) <= on_surface) return true;
-        if (std::fabs(share - 1.0) > std::fabs(off)) break;
+        if (share <= 0.0 || std::fabs(share - 1.0) > std::fabs(off)) break;
         off = share - 1.0;
     }
     state = too_far;  // what broke before has moved so that all is no longer in proportion
+    relaxation_ = relaxation_there;
+    last_ = last_there;
     remember_grip(state);
     return true;
 }
@@ -348,6 +352,22 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     step_in_place(model, state);
     const bool broken = mean_damage(state, interfaces) >= all_broken;
     return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
+}
+
+std::optional<PullOutPath::Found> next_or_none(std::optional<PullOutPath>& path, Model& model, State& state,
+                                               const std::function<bool()>& interrupted)
+{
+    const PullOutPath last_path = *path;
+    const State last_state = state;
+    const Buffer<std::int32_t> spread_bodies = model.spread_bodies;  // what comes off a face leaves the model's list
+    const Buffer<double> spread_area = model.spread_area;
+    const PullOutPath::Found found = path->next(model, state, interrupted);
+    if (!interrupted()) return found;
+    path.emplace(last_path);
+    state = last_state;
+    model.spread_bodies = spread_bodies;
+    model.spread_area = spread_area;
+    return std::nullopt;
 }
 
 /// Half of the overshoot before the damage, half of it in the damage: what is released is then what the law takes.

@@ -16,6 +16,7 @@
 #include "motion/relax.h"
 
 #include <functional>
+#include <optional>
 
 namespace grainfrac {
 
@@ -81,5 +82,10 @@ private:
     std::vector<Vec3> force_before_, position_before_;  // of the grip, for the work of its next move
     bool started_ = false;
 };
+
+/// The next state of the path. Interrupted, none, and path, model and state are what they were: a relaxation is not
+/// broken off and taken up again with the same bits.
+std::optional<PullOutPath::Found> next_or_none(std::optional<PullOutPath>& path, Model& model, State& state,
+                                               const std::function<bool()>& interrupted);
 
 }  // namespace grainfrac

@@ -4,10 +4,15 @@
 #include "fracture/bond_forces.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace grainfrac {
 
 namespace {
+
+/// The moment from the slots is that of the law but for rounding, so that the bond breaks at this much less strength.
+constexpr double least_less = 1e-12;
 
 /// Share of its strength at which something breaks, if above `share`; else `share`.
 template <class BreaksAt>
@@ -51,9 +56,13 @@ void break_bond(const Model& model, State& state, const MostUsedBond& most)
 {
     SphereBonds& p = state.sphere_bonds;
     const double factor = p.strength_factor[most.bond];
-    p.strength_factor.at(most.bond) = most.share * factor;
-    bond_forces(model, state, {}, {}, {most.bond});
+    const auto is_whole = [&] { return p.cause[most.bond] == static_cast<int>(BondCause::whole); };
+    for (double less = least_less; is_whole() && less < 1.0; less *= 10.0) {
+        p.strength_factor.at(most.bond) = (1.0 - less) * most.share * factor;
+        bond_forces(model, state, {}, {}, {most.bond});
+    }
     p.strength_factor.at(most.bond) = factor;
+    if (is_whole()) throw std::logic_error("break_bond: bond " + std::to_string(most.bond) + " does not break");
 }
 
 HeldBonds::HeldBonds(Model& model) : model_(model), laws_(model.sphere_bond_laws.host())

@@ -17,7 +17,8 @@ struct MostUsedBond {
 /// Of the bonds that are whole, by the forces in their slots.
 MostUsedBond most_used_bond(const Model& model, const State& state);
 
-/// Breaks it under the force that it bears, as if that were its strength; the next step finds it broken.
+/// Breaks it under the force that it bears, as if its strength were that or, for rounding, a trace less; the next step
+/// finds it broken. The model must let bonds break.
 void break_bond(const Model& model, State& state, const MostUsedBond& most);
 
 /// No bond of spheres breaks as long as this is there.

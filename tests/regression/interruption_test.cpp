@@ -85,6 +85,66 @@ private:
     bool there_ = false;
 };
 
+/// Within a few steps of the grip the matrix tears off its far face, which is held in the mean.
+Scene torn_matrix()
+{
+    return {"a pull-out in which the matrix tears",
+            R"([materials.stiff]
+density = 4443
+young_modulus = "50 GPa"
+poisson_ratio = 0.2
+[materials.soft]
+density = 4443
+young_modulus = "5 GPa"
+poisson_ratio = 0.2
+[[parts]]
+name = "matrix"
+kind = "spheres"
+material = "soft"
+generator = "hcp"
+diameter = "1 m"
+lattice_origin = "channel"
+region = { shape = "cylinder", diameter = "5 m", height = "4 m", axis = "z" }
+[[parts]]
+name = "fibre"
+kind = "spheres"
+material = "stiff"
+generator = "chain"
+diameter = "0.8 m"
+inside = "matrix"
+fibre = { from = [0, 0, "-1.2 m"], to = [0, 0, "2 m"], radius = "1 m" }
+[[bonds]]
+between = ["matrix", "matrix"]
+law = "parallel"
+failure = "point"
+shear_ratio = 0.4
+tensile_strength = "0.5 MPa"
+cohesion = "5 MPa"
+[[bonds]]
+between = ["fibre", "fibre"]
+law = "parallel"
+failure = "unbreakable"
+[[bonds]]
+between = ["fibre", "matrix"]
+law = "interface"
+shear_stiffness = "1e9 Pa/m"
+yield_slip = "1 mm"
+failure_slip = "3 mm"
+[test]
+kind = "pull_out"
+fibre = "fibre"
+matrix = "matrix"
+control = "displacement"
+displacement_step = "0.1 mm"
+support = "uniform"
+stop = { load_drop = 0.5 }
+[output]
+every = 1.0
+checkpoint_steps = 1000000
+)",
+            {}};
+}
+
 /// What a run wrote before it failed can be read: whole rows, whole snapshots.
 void check_readable(const fs::path& folder)
 {
@@ -160,6 +220,47 @@ TEST_CASE("SIGTERM and SIGINT stop with a checkpoint, SIGUSR1 makes one and the 
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     CHECK(checkpoints(w.folder / "out").size() == 2);
     CHECK(child.wait() == 0);
+}
+
+TEST_CASE("a pull-out that is stopped while its matrix tears goes on to the same bits")
+{
+    const Workplace w;
+    const Scene scene = torn_matrix();
+    using Clock = std::chrono::steady_clock;
+    const auto seconds_to = [&](Child& child, const char* out, std::size_t rows, double most) {
+        const auto start = Clock::now();
+        const auto lasted = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+        while (child.running() && history_rows(w.folder / out / "history.csv").size() < rows && lasted() < most)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return lasted();
+    };
+    // the last row is that of the torn matrix: bonds break one after the other, each at rest, from the row before
+    REQUIRE(Child(w, run_arguments(w, scene, "whole")).wait() == 0);
+    const std::size_t torn = history_rows(w.folder / "whole/history.csv").size();
+    REQUIRE(torn > 2);
+    double tearing = 0.0;  // how long it takes [s]
+    {
+        Child child(w, run_arguments(w, scene, "out"));
+        wait_for_rows(child, w.folder / "out/history.csv", torn - 1);
+        tearing = seconds_to(child, "out", torn, 1e3);
+    }
+    for (const double share : {0.3, 0.6, 0.9}) {
+        fs::remove_all(w.folder / "out");
+        int code = 0;
+        {
+            Child child(w, run_arguments(w, scene, "out"));
+            wait_for_rows(child, w.folder / "out/history.csv", torn - 1);
+            seconds_to(child, "out", torn, share * tearing);
+            child.send(SIGTERM);
+            code = child.wait();
+        }
+        INFO(share << " of " << tearing << " s: exit code " << code);
+        CHECK((code == 128 + SIGTERM || code == 0));  // 0: it was faster this time
+        CHECK(resume(w, "out") == 0);
+        const std::vector<std::string> found = differences(w.folder / "whole", w.folder / "out");
+        INFO(listed(found) << said(w));
+        CHECK(found.empty());
+    }
 }
 
 TEST_CASE("a second SIGINT ends a run at once that cannot end by itself, and its checkpoint is there")

@@ -11,9 +11,10 @@
 #include "motion/step.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -117,9 +118,9 @@ inline PathSettings by_displacement(double step)
 /// Phases in pull_out.csv, each once, in their order.
 inline std::vector<int> phases_in_file(const PulledOut& run)
 {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() /
-                                         ("grainfrac_phases_" + std::to_string(reinterpret_cast<std::uintptr_t>(&run)));
-    std::filesystem::create_directories(folder);
+    std::string name = (std::filesystem::temp_directory_path() / "grainfrac_phases_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder " + name);
+    const std::filesystem::path folder = name;
     PullOutFiles files(folder, {});
     for (const PullOutState& s : run.path) files.append(s, {});
     std::ifstream in(folder / "pull_out.csv");

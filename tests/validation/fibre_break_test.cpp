@@ -3,11 +3,13 @@
 // the interface yields all is linear, so that the load at which a bond breaks is strength over stress at any lower
 // load.
 #include "support/pull_out.h"
+#include "support/spheres.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 using namespace grainfrac;
 using namespace grainfrac::test;
@@ -182,5 +184,88 @@ TEST_CASE("a matrix tears at the load that equilibrium foretells", "[pull_out]")
         // what comes off the face that is held in the mean knocks against what does not
         CHECK(e.relative_error() < (c.test.support == "held" ? 1e-6 : 2e-3));
         for (const PullOutState& now : run.path) CHECK(std::fabs(now.support_stress - now.end_stress) < 1e-4 * first);
+    }
+}
+
+TEST_CASE("a path that is interrupted while the matrix tears is where it was, and goes on to the same bits",
+          "[pull_out]")
+{
+    Case c = breaking_case(4.0, 0.0, 0.0);
+    c.parts[0].region.diameter = 5.0;
+    c.parts[1].fibre.from.z = -1.2;
+    c.bonds[0].failure = "point";
+    c.bonds[0].tensile_strength = 0.5e6;
+    c.bonds[0].cohesion = 5e6;
+    c.test.support = "uniform";
+    PulledOut run(c);
+    Model& model = run.built.model;
+    State& state = run.built.state;
+    std::optional<PullOutPath> path(std::in_place, run.pull_out(), by_displacement(1e-4), model, state);
+    const auto never = [] { return false; };
+    while (most_used_bond(model, state).share < 0.999)
+        REQUIRE(*next_or_none(path, model, state, never) == PullOutPath::Found::equilibrium);
+    const State before = state;
+    const PullOutPath path_before = *path;
+    const std::vector<std::int32_t> face = model.spread_bodies.host();
+    const std::vector<double> area = model.spread_area.host();
+    // the whole tear, and where it has taken bodies off the face
+    int looks = 0, looks_before_loss = 0;
+    const auto look = [&] {
+        ++looks;
+        if (model.spread_bodies.size() == static_cast<int>(face.size())) looks_before_loss = looks;
+        return false;
+    };
+    REQUIRE(next_or_none(path, model, state, look));
+    const State torn = state;
+    const std::vector<std::int32_t> face_torn = model.spread_bodies.host();
+    REQUIRE(face_torn.size() < face.size());
+    REQUIRE(looks > looks_before_loss + 2);
+    for (const int at : {1, looks_before_loss / 2, looks_before_loss + 1, (looks_before_loss + looks) / 2, looks}) {
+        CAPTURE(at, looks_before_loss, looks);
+        state = before;
+        path.emplace(path_before);
+        model.spread_bodies.host() = face;
+        model.spread_area.host() = area;
+        int seen = 0;
+        CHECK_FALSE(next_or_none(path, model, state, [&] { return ++seen >= at; }));
+        CHECK(model.spread_bodies.host() == face);
+        CHECK(model.spread_area.host() == area);
+        CHECK(broken_bonds(state) == broken_bonds(before));
+        REQUIRE(next_or_none(path, model, state, never));
+        CHECK(model.spread_bodies.host() == face_torn);
+        CHECK(state.step == torn.step);
+        CHECK(broken_bonds(state) == broken_bonds(torn));
+        for (int i = 0; i < state.bodies.size(); ++i) {
+            REQUIRE(norm2(state.bodies.position[i] - torn.bodies.position[i]) == 0.0);
+            REQUIRE(norm2(state.bodies.force[i] - torn.bodies.force[i]) == 0.0);
+        }
+    }
+}
+
+TEST_CASE("the most used bond breaks, however it lies and is bent", "[pull_out]")
+{
+    int draw = 0;
+    for (int k = 0; k < 500; ++k) {
+        SphereBondLaw law = unbreakable_bond(false);
+        law.strength = {1e6, k % 2 == 0 ? 1e8 : 1e6, 0.3, 1.0, k % 3 == 0, true};
+        Assembly a = sphere_assembly(law);
+        const double small = 0.3 + 0.2 * std::fabs(random_vector(draw).x);
+        const Vec3 direction = normalized(random_vector(draw));
+        sphere(a, random_vector(draw), 0.5);
+        sphere(a, a.state.bodies.position[0] + (0.5 + small) * direction, small);
+        join(a, 0, 1, {1e9, 4e8, 1e8, 5e7});
+        shift(a.state, 1, 1e-4 * (random_vector(draw) + direction));
+        turn(a.state, 0, random_turn(draw, 1e-3));
+        turn(a.state, 1, random_turn(draw, 1e-3));
+        evaluate_bonds(a);
+        const MostUsedBond most = most_used_bond(a.model, a.state);
+        REQUIRE(most.bond == 0);
+        const double stored = a.state.sphere_bonds.stored_energy[0];
+        break_bond(a.model, a.state, most);
+        REQUIRE(a.state.sphere_bonds.cause[0] != static_cast<int>(BondCause::whole));
+        CHECK(a.state.sphere_bonds.strength_factor[0] == 1.0);
+        CHECK(a.state.sphere_bonds.fracture_work[0] == Approx(stored).epsilon(1e-12));
+        CHECK(a.state.sphere_bonds.stored_energy[0] == 0.0);
+        CHECK(most_used_bond(a.model, a.state).bond == -1);
     }
 }

@@ -159,6 +159,8 @@ TEST_CASE("pull-out: the path turns back and ends at the failure slip without st
     CHECK(last.end_stress < 0.02 * run.largest(&PullOutState::end_stress));
     CHECK(last.exit_slip == Approx(3e-3).epsilon(0.05));
     const LastStage tail = last_stage(run);
+    // the zone, not the free length, which is a small difference here: spheres of 1 m make the zone 0.25 m longer, and
+    // that is 4.3 % of 5.78 m
     CHECK(length - tail.free_length == Approx(last_zone).epsilon(0.03));
     CHECK(tail.slip == Approx(3e-3).epsilon(0.01));
     // all that was to break did
