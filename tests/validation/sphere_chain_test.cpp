@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A heavy chain on a plate: what lifts it, what the plate bears. Closed forms: the bonded-spheres sheet, section 12.
+// A heavy chain on a plate: what lifts it, what the plate bears. Closed forms: docs/theory/sphere_bonds.md,
+// section 7, and momentum.
 #include "experiment/walls.h"
 #include "support/spheres.h"
 
