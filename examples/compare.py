@@ -29,11 +29,6 @@ def line_fit(x, y):
     return slope, start, max(abs(start + slope * a - b) for a, b in zip(x, y))
 
 
-def nrmse(found, exact):
-    """Root mean square difference over the range of the exact one."""
-    return math.sqrt(sum((a - b)**2 for a, b in zip(found, exact)) / len(exact)) / (max(exact) - min(exact))
-
-
 def draw(path, panels):
     """A panel: title, x label, y label, and curves of (label, x, y, style)."""
     if not path:

@@ -101,7 +101,9 @@ RunFacts run_facts(const Case& c, const std::string& resolved, Device device)
 {
     // two runs with the same hash of the resolved input simulate the same thing
     const std::string hash = fmt::format("{:016x}", checksum(resolved.data(), resolved.size()));
-    return {GRAINFRAC_VERSION, hash, to_string(device), c.simulation.seed, threads(), c.test.kind};
+    const bool fibre = c.test.kind == "pull_out" ||
+                       std::any_of(c.parts.begin(), c.parts.end(), [](const PartSpec& p) { return !p.inside.empty(); });
+    return {GRAINFRAC_VERSION, hash, to_string(device), c.simulation.seed, threads(), c.test.kind, fibre};
 }
 
 int carry_out(const Case& c, const Options& o, const RunFacts& facts, const RunOrigin& origin, Built& built,

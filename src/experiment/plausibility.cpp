@@ -181,13 +181,11 @@ private:
     /// about rest, and brakes that too.
     void rigid_motion()
     {
-        std::vector<std::string> released;
         for (std::size_t i = 0; i < c_.stages.size(); ++i) {
             const StageSpec& s = c_.stages[i];
-            released.insert(released.end(), s.release.begin(), s.release.end());
             const double alpha = s.local_damping.value_or(c_.control.local_damping);
             if (alpha == 0.0 || s.kind == "settle" || s.kind == "bond") continue;
-            const std::string what = moving_rigidly(s, i == 0, released);
+            const std::string what = moving_rigidly(i);
             if (what.empty()) continue;
             warn(s.local_damping ? fmt::format("stages[{}].local_damping", i) : "control.local_damping",
                  fmt::format("in stage \"{}\" {}, and {:.3g} brakes that too, by {:.3g} of the force on it; use the "
@@ -196,25 +194,56 @@ private:
         }
     }
 
-    std::string moving_rigidly(const StageSpec& s, bool first, const std::vector<std::string>& released) const
+    static Vec3 velocity_in(const StageSpec& s, const std::string& wall, const Vec3& own)
     {
+        for (const StageMotion& m : s.motions) {
+            if (m.wall == wall) return m.velocity;
+        }
+        return own;
+    }
+
+    bool a_wall_is_driven(const StageSpec& s) const
+    {
+        return std::any_of(s.motions.begin(), s.motions.end(), [](const StageMotion& m) { return m.moves(); }) ||
+               std::any_of(c_.walls.begin(), c_.walls.end(), [&](const WallSpec& w) {
+                   return w.servo.given() || norm2(velocity_in(s, w.name, w.velocity)) > 0.0;
+               });
+    }
+
+    /// What falls onto walls is at rest once a stage was there for it.
+    bool falls(std::size_t stage) const
+    {
+        if (c_.test.kind != "custom" || !c_.grips.empty()) return false;
+        if (c_.walls.empty()) return true;
+        const StageSpec& s = c_.stages[stage];
+        const bool rests = std::any_of(c_.stages.begin(), c_.stages.begin() + static_cast<std::ptrdiff_t>(stage),
+                                       [](const StageSpec& b) { return b.kind == "settle" || b.kind == "compact"; });
+        return s.kind == "load" && !rests && !a_wall_is_driven(s);
+    }
+
+    std::string moving_rigidly(std::size_t stage) const
+    {
+        const StageSpec& s = c_.stages[stage];
         for (const PartSpec& p : c_.parts) {
-            if (first && norm2(p.velocity) + norm2(p.angular_velocity) > 0.0)
+            if (stage == 0 && norm2(p.velocity) + norm2(p.angular_velocity) > 0.0)
                 return fmt::format("\"{}\" moves by itself", p.name);
         }
-        if (!released.empty()) return fmt::format("what \"{}\" held is free", released.back());
+        if (!s.release.empty()) return fmt::format("what \"{}\" held is free", s.release.back());
         const bool heavy = norm2(s.gravity.value_or(c_.control.gravity)) > 0.0;
-        if (c_.test.kind == "custom" && heavy && c_.walls.empty() && c_.grips.empty()) return "all falls freely";
-        const auto velocity = [&](const GripSpec& g) {
-            for (const StageMotion& m : s.motions) {
-                if (m.wall == g.name) return m.velocity;
-            }
-            return g.velocity;
-        };
+        if (heavy && falls(stage)) return "all falls freely";
+        std::vector<GripSpec> grips;  // that still hold
         for (const GripSpec& g : c_.grips) {
-            const Vec3 v = velocity(g);
-            const bool against = std::any_of(c_.grips.begin(), c_.grips.end(), [&](const GripSpec& other) {
-                return other.part == g.part && norm2(velocity(other) - v) > 0.0;
+            const bool gone = std::any_of(
+                c_.stages.begin(), c_.stages.begin() + static_cast<std::ptrdiff_t>(stage), [&](const StageSpec& b) {
+                    return std::find(b.release.begin(), b.release.end(), g.name) != b.release.end();
+                });
+            if (!gone) grips.push_back(g);
+        }
+        for (const GripSpec& g : grips) {
+            const Vec3 v = velocity_in(s, g.name, g.velocity);
+            // of whatever part: what it holds may be bonded to this one
+            const bool against = std::any_of(grips.begin(), grips.end(), [&](const GripSpec& other) {
+                return norm2(velocity_in(s, other.name, other.velocity) - v) > 0.0;
             });
             if (norm2(v) > 0.0 && !against && (heavy || c_.walls.empty()))
                 return fmt::format("\"{}\" draws \"{}\" along", g.name, g.part);

@@ -53,6 +53,15 @@ bool is_chain(const Case& c, int part)
            c.parts[static_cast<std::size_t>(part)].generator == "chain";
 }
 
+/// Which of the copies of a chain a body is in; they are one after the other.
+int copy_of(const PartSpec& part, const State& state, int body)
+{
+    const std::vector<std::int32_t>& group = state.bodies.group.host();
+    const auto all = std::count(group.begin(), group.end(), group[static_cast<std::size_t>(body)]);
+    const auto before = std::count(group.begin(), group.begin() + body, group[static_cast<std::size_t>(body)]);
+    return static_cast<int>(before / (all / static_cast<std::ptrdiff_t>(part.copies.size() + 1)));
+}
+
 /// Nodes of a chain are where its line has them: it is their size that does not fit, or the hole around them.
 void check_chain(const Case& c, const Model& model, const State& state, int a, int b)
 {
@@ -64,10 +73,12 @@ void check_chain(const Case& c, const Model& model, const State& state, int a, i
     const double apart = norm(bodies.position[a] - bodies.position[b]);
     const std::string key = fmt::format("parts[{}].diameter", chain);
     if (other == chain) {
-        throw InputError(key,
-                         fmt::format("must be <= {:.4g} m: so far are spheres {} and {} of \"{}\" apart, which are "
-                                     "no neighbours along it",
-                                     apart, bodies.id[a], bodies.id[b], part.name));
+        const bool copies = copy_of(part, state, a) != copy_of(part, state, b);
+        throw InputError(
+            key, fmt::format("must be <= {:.4g} m{}: so far are spheres {} and {} of \"{}\" apart, which are "
+                             "{}",
+                             apart, copies ? ", or set its copies farther apart" : "", bodies.id[a], bodies.id[b],
+                             part.name, copies ? "of two copies" : "no neighbours along it"));
     }
     const double left = apart - model.shapes.radius[bodies.shape[b]];
     if (!is_sphere(model, bodies, b) || left <= 0.0) return;

@@ -102,14 +102,16 @@ bool grains_reach_in(const Model& model, const State& state, const FibreChain& c
 {
     constexpr double touching = 1e-6;  // of the radius: no more than touching, to round-off
     const std::vector<Grain> grains = placed(model, state, bodies);
-    const Vec3 center[1] = {{}};
-    for (const int node : chain.nodes) {
-        const PlacedCore ball{center, 1, state.bodies.position[node], Quat{}};
-        const double radius = model.shapes.bounding_radius[state.bodies.shape[node]];
+    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
+        const bool last = k + 1 == chain.nodes.size();
+        const Vec3 node = state.bodies.position[chain.nodes[k]];
+        const Vec3 way[2] = {{}, last ? Vec3{} : state.bodies.position[chain.nodes[k + 1]] - node};
+        const PlacedCore piece{way, last ? 1 : 2, node, Quat{}};
+        const double radius = model.shapes.bounding_radius[state.bodies.shape[chain.nodes[k]]];
         for (const Grain& g : grains) {
-            const Vec3 to_grain = g.core.position - ball.position;
-            if (norm(to_grain) > g.reach + radius) continue;
-            if (closest_points(ball, g.core, to_grain).distance < g.rounding + radius * (1.0 - touching)) return true;
+            const Vec3 to_grain = g.core.position - node;
+            if (norm(to_grain) > g.reach + radius + norm(way[1])) continue;
+            if (closest_points(piece, g.core, to_grain).distance < g.rounding + radius * (1.0 - touching)) return true;
         }
     }
     return false;

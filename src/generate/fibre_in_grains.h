@@ -13,7 +13,7 @@ namespace grainfrac {
 std::vector<SharedFace> grain_patches(const Model& model, const State& state, const FibreChain& chain,
                                       const std::vector<int>& grains);
 
-/// Whether one of the grains reaches into the ball of a node.
+/// Whether one of the grains reaches into what the balls of the nodes sweep on the way to the next one.
 bool grains_reach_in(const Model& model, const State& state, const FibreChain& chain, const std::vector<int>& grains);
 
 }  // namespace grainfrac

@@ -154,7 +154,7 @@ void ResultFolder::begin(const RunFacts& facts, const std::string& input_text, c
     impl_->table.emplace(impl_->folder / "results.h5", facts);
 #ifdef GF_HAVE_VTK
     impl_->paraview.emplace(impl_->folder / "paraview");
-    write_file(impl_->folder / "paraview" / "view.py", view_script());
+    write_file(impl_->folder / "paraview" / "view.py", view_script(facts.fibre));
 #endif
 }
 
@@ -251,7 +251,7 @@ void ResultFolder::go_on(const RunFacts& facts, const std::string& resolved_toml
         !missing.empty())
         spdlog::warn("{}: {} files of the series are missing, the first of them {}; they are not made anew",
                      (folder / "paraview").string(), missing.size(), missing.front());
-    write_file(folder / "paraview" / "view.py", view_script());
+    write_file(folder / "paraview" / "view.py", view_script(facts.fibre));
 #endif
     for (const char* part : {"", "checkpoint", "paraview"}) {  // files of a killed run that never got whole
         for (const auto& entry : fs::directory_iterator(folder / part)) {

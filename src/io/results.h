@@ -117,6 +117,7 @@ struct RunFacts {
     std::int64_t seed = 0;
     int threads = 1;
     std::string test_kind;  ///< "brazilian", "custom"
+    bool fibre = false;     ///< one is pulled out, or a part lies inside another
 };
 
 /// A plot that could not be made: worth a warning, not the end of a run.

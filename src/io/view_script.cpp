@@ -3,9 +3,9 @@
 
 namespace grainfrac {
 
-std::string view_script()
+std::string view_script(bool fibre)
 {
-    return R"py(# Opens this result folder in ParaView (5.9 or newer):
+    return std::string(R"py(# Opens this result folder in ParaView (5.9 or newer):
 #
 #   paraview --script=view.py
 #   pvpython view.py --save picture.png [--view cleavage] [--time last|first|SECONDS] [--color FIELD] [--size 1600x1200]
@@ -51,6 +51,9 @@ VIEWS = ("stress", "clusters", "cleavage")
 SIDES = {"z": (2, 1.0, 0, 1), "-y": (1, -1.0, 0, 2), "x": (0, 1.0, 1, 2)}  # axis and sign to the eye, across, up
 SEEN_FROM_THE_SIDE = 2.0   # what is higher than this, over its depth
 WITH_FIBRE = 0.5           # the same of a matrix with a fibre in it
+HAS_FIBRE = )py") +
+           (fibre ? "True" : "False") +
+           R"py(
 TITLES = {                 # of the colour legends
     "von_mises": "von Mises stress [Pa]", "pressure": "mean stress [Pa]", "stress": "stress%s [Pa]",
     "velocity": "velocity%s [m/s]", "displacement": "displacement%s [m]", "damage": "damage of its bonds",
@@ -294,16 +297,6 @@ def cut_open(layers, shown, side, time):
         layers[name] = half
 
 
-def has_fibre(layers):
-    """Spheres in grains, or of two parts."""
-    spheres = layers["spheres"]
-    if not has_cells(spheres):
-        return False
-    part = spheres.PointData["part"]
-    low, high = part.GetRange() if part is not None else (0.0, 0.0)
-    return has_cells(layers["grains"]) or high > low
-
-
 def place_camera(view, shown, side):
     """The layers fill the height, left of the legends."""
     axis, sign, across, up = SIDES[side]
@@ -406,7 +399,7 @@ def main():
             time = go_to(options.time, layers)
             update(layers, time)
             shown = bodies_of(layers)
-            fibre = has_fibre(layers)
+            fibre = HAS_FIBRE and has_cells(layers["spheres"])
             side = options.side or (side_to_look_from(shown, WITH_FIBRE if fibre else SEEN_FROM_THE_SIDE) if shown else "z")
             if fibre and not options.whole:
                 cut_open(layers, shown, side, time)

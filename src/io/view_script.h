@@ -6,7 +6,7 @@
 
 namespace grainfrac {
 
-/// The script's text; it finds the layers beside itself and does not depend on the run.
-std::string view_script();
+/// The script's text; it finds the layers beside itself. `fibre`: what is around a fibre is cut open.
+std::string view_script(bool fibre);
 
 }  // namespace grainfrac

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A string of spheres drawn over a fixed cylinder: the tensions on its two sides are as 1 to e^(mu theta) (Euler;
-// physics/bonded_spheres 13).
+// A string of spheres drawn over a fixed cylinder: the tensions on its two sides are as 1 to e^(mu theta) (Euler).
 #include "experiment/walls.h"
 #include "support/spheres.h"
 

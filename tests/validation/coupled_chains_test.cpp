@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shear-lag pull-out in particles: a chain for the fibre and one for the matrix, both free along the pull alone,
-// and patches of interface between nodes side by side (physics/bonded_spheres 12). The patches have the interface law
-// between the section means, stiffness 1/C and yield at C tau_0 (section 11), so that every number of the closed form
+// and patches of interface between nodes side by side (docs/theory/pull_out.md 5). The patches have the interface law
+// between the section means, stiffness 1/C and yield at C tau_0, so that every number of the closed form
 // must come out, but for the spacing of the nodes, of second order.
 #include "experiment/pull_out.h"
 #include "experiment/pull_out_path.h"
@@ -169,7 +169,7 @@ Elastic elastic_error(const ShearLag& k, int pieces)
 
 TEST_CASE("coupled chains: elastic shear and stress of the closed form", "[pull_out]")
 {
-    CHECK(ShearLag{}.shear(0.0) / ShearLag{}.shear(30.0) == Approx(0.294172).epsilon(2e-6));  // the sheet's numbers
+    CHECK(ShearLag{}.shear(0.0) / ShearLag{}.shear(30.0) == Approx(0.294172).epsilon(2e-6));  // known beforehand
     CHECK(1e6 / ShearLag{}.shear(30.0) == Approx(14.30568e6).epsilon(1e-6));
     for (const ShearLag& k :
          {ShearLag{}, ShearLag{500e9}, ShearLag{0.5e9}, ShearLag{5e9, 10.0}, ShearLag{5e9, 30.0, 1e7}}) {

@@ -88,7 +88,7 @@ TEST_CASE("a slow grip gives the equilibria", "[pull_out][slow]")
 
 TEST_CASE("patches along the lines of centres resist the slip by 1 - n_z^2 of their area", "[pull_out]")
 {
-    // physics/bonded_spheres 8.1: what is along the line of two centres bears no shear; 1 - n_z^2 = 1/3 of rising bonds
+    // docs/theory/pull_out.md 1: what is along the line of two centres bears no shear; 1 - n_z^2 = 1/3 of rising bonds
     double stiffness[2];
     double level = 0.0, expected = 0.0;
     for (const int branch : {0, 1}) {

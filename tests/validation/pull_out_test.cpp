@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fibre pull-out against axisymmetric elasticity and the closed forms of the shear-lag path (physics/bonded_spheres 10,
-// 11): the case of Dressler 2020, table 4-3, nothing tuned.
+// Fibre pull-out against axisymmetric elasticity and the closed forms of the shear-lag path
+// (docs/theory/pull_out.md, section 5): the case of Dressler 2020, table 4-3, nothing tuned.
 #include "support/pull_out.h"
 
 #include <catch2/catch.hpp>
@@ -131,7 +131,7 @@ TEST_CASE("pull-out: a fibre of spheres of the lattice bears the same shear", "[
     c.parts[1].region.height = 40.0;
     PulledOut run(c);
     run.follow(by_damage(0.01), [](const PullOutState&) { return true; });
-    const Misfit m = misfit(run, "elastic_30.21m.csv");  // tolerances: sheet 14, there for spheres of half the size
+    const Misfit m = misfit(run, "elastic_30.21m.csv");  // tolerances: those of spheres of half the size
     CHECK(std::hypot(m.shear, m.spread) < 0.085);
     CHECK(m.shear < 0.04);
     CHECK(m.stress < 0.03);
@@ -221,7 +221,7 @@ TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pu
     c.parts[0].region.diameter = 4.0;
     c.bonds[2].residual_friction = 0.1;
     c.bonds[2].radial_pressure = 1e6;
-    double contraction = 0.0144928, tolerance = 0.001;  // that of the two materials, sheet 11
+    double contraction = 0.0144928, tolerance = 0.001;  // k_p of the two materials, docs/theory/pull_out.md 1
     SECTION("of the two materials") {}
     SECTION("strong")
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs and chains of bonded spheres in motion against closed forms: bonded-spheres sheet, sections 5, 6, 7, 12, 14.
+// Pairs and chains of bonded spheres in motion against closed forms: docs/theory/sphere_bonds.md.
 #include "support/spheres.h"
 
 #include <complex>
@@ -380,7 +380,7 @@ ChainState state_of(const Assembly& a)
 
 TEST_CASE("a driven chain with dashpots follows its modes")
 {
-    CHECK(modal_chain(100.0, 0.3).kinetic == Approx(3.5426).epsilon(2e-5));  // the sheet's figures
+    CHECK(modal_chain(100.0, 0.3).kinetic == Approx(3.5426).epsilon(2e-5));  // figures known beforehand
     CHECK(modal_chain(5000.0, 0.1).kinetic == Approx(1.01155).epsilon(1e-5));
     for (const double zeta : {0.1, 0.3, 0.7}) {
         Assembly coarse = driven_chain(zeta), fine = driven_chain(zeta);
@@ -407,7 +407,7 @@ TEST_CASE("a driven chain with dashpots ends in rigid motion", "[slow]")
 
 TEST_CASE("local damping keeps a driven chain from rigid motion", "[slow]")
 {
-    // Vibration slower than the chain itself is not braked, the chain is: the sheet's figures are indicative.
+    // Vibration slower than the chain itself is not braked, the chain is: the figures are indicative.
     const double beta[4] = {0.1, 0.3, 0.5, 0.7}, drag[4] = {0.12, 0.58, 1.25, 2.63};
     for (int k = 0; k < 4; ++k) {
         Assembly a = driven_chain(0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonded spheres at rest: beam, string, lattices; plane waves by the stiffness of the kernels. Closed forms: the
-// bonded-spheres sheet, sections 9 and 12.
+// Bonded spheres at rest: beam, string, lattices; plane waves by the stiffness of the kernels. Closed forms:
+// docs/theory/sphere_bonds.md, sections 6 and 7.
 #include "generate/packings.h"
 #include "support/spheres.h"
 
@@ -415,7 +415,7 @@ Pulled pull_cylinder(double d, const BondSprings& k)
 
 TEST_CASE("a cylinder of hcp spheres is softer than its lattice by its skin", "[slow]")
 {
-    // the sheet's own cylinders of d = R/6, about 1 - 0.5 d/R
+    // cylinders of d = R/6: softer at the skin, about 1 - 0.5 d/R (docs/theory/sphere_bonds.md, section 6)
     const double d = 1.0, K = 1.0;
     for (const auto& [lambda, share] : {std::pair(0.01, 0.914), std::pair(0.3, 0.926)}) {
         const double E = 6.0 * std::numbers::sqrt2 / d * K * (1.0 + lambda) / (5.0 + lambda);

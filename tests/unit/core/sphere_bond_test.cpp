@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One bond between two spheres: balance, potential, objectivity, limits of the step. Closed forms and tolerances:
-// the bonded-spheres sheet, sections 2, 3, 5, 6, 7 and 14.
+// docs/theory/sphere_bonds.md, sections 1 to 5.
 #include "support/spheres.h"
 
 using namespace grainfrac;

@@ -200,6 +200,40 @@ TEST_CASE("local damping however little where something moves as a whole", "[inp
     CHECK(flying({"stages[0].kind=\"load\"", "stages[0].local_damping=0.1"}) == "");
     CHECK(flying({"stages[0].kind=\"load\"", "stages[0].local_damping=0.1", "parts[0].velocity=[0,0,1]"})
               .find("moves by itself") != std::string::npos);
+    // what falls onto a floor falls: not what rests there already, nor what is pressed
+    const std::vector<std::string> onto_floor{"control.gravity=[0,-9.81,0]", "control.local_damping=0.1"};
+    const auto stage = [&](std::initializer_list<const char*> more) {
+        std::vector<std::string> set = onto_floor;
+        set.insert(set.end(), more.begin(), more.end());
+        return flying(set);
+    };
+    CHECK(stage({"stages[0].kind=\"load\"", "stages[0].move=[]"}).find("all falls freely") != std::string::npos);
+    CHECK(stage({"stages[0].kind=\"load\""}) == "");
+    CHECK(stage({"stages[0].kind=\"load\"", "stages[0].move=[]", "walls[1].velocity=[0,-0.1,0]"}) == "");
+    CHECK(stage({"stages[0].kind=\"settle\"", "stages[0].move=[]"}) == "");
+    CHECK(stage({"stages[0].kind=\"settle\"", "stages[0].move=[]",
+                 "stages[1]={name=\"wait\",kind=\"load\",duration=\"1 ms\"}"}) == "");
+    // a release is of its own stage
+    const std::string released = said("damped_pair/damped_pair", {"stages.free.local_damping=0.1",
+                                                                  "stages[2]={name=\"later\",duration=\"1 ms\","
+                                                                  "local_damping=0.1}"});
+    CHECK(released.find("stages[1]") != std::string::npos);
+    CHECK(released.find("stages[2]") == std::string::npos);
+}
+
+TEST_CASE("a grip draws nothing along where another holds what is bonded to its part", "[input]")
+{
+    std::map<std::string, SourcePlace> places;
+    Case c = read_case(std::string(GF_SOURCE_DIR) + "/examples/damped_pair/damped_pair.toml", {}, places);
+    c.stages.resize(1);
+    c.stages[0].local_damping = 0.1;
+    CHECK(listed(implausible_input(c)) == "");
+    c.parts.push_back(c.parts[0]);
+    c.parts[1].name = "mount";
+    c.grips[0].part = "mount";
+    CHECK(listed(implausible_input(c)) == "");
+    c.grips.erase(c.grips.begin());
+    CHECK(listed(implausible_input(c)).find("\"hand\" draws \"pair\" along") != std::string::npos);
 }
 
 TEST_CASE("a material that no part is of changes nothing, listed first", "[input]")

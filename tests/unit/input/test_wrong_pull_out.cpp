@@ -94,3 +94,19 @@ TEST_CASE("fibres whose spheres do not fit are told by their size", "[input]")
         "error: FILE:31: parts[1].diameter = \"0.8 m\": must be <= 0.5575 m, or fibre.radius larger than 0.4 m: sphere "
         "775 of \"fibre\" lies in sphere 61 of \"matrix\"\n");  // which is of the supported face
 }
+
+TEST_CASE("copies of a chain that overlap may be set farther apart", "[input]")
+{
+    std::ifstream in(GF_SOURCE_DIR "/examples/damped_pair/damped_pair.toml");
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::size_t bonds = text.find("[[bonds]]");  // what is bonded may overlap
+    text.erase(bonds, text.find("[[grips]]") - bonds);
+    const auto copy_at = [&](const std::string& y) {
+        return build_problems_of(
+            replaced(text, "[2, 0, 0] }", "[2, 0, 0], radius = 0.5 }\ncopies = [[0, " + y + ", 0]]"));
+    };
+    CHECK(copy_at("2") == "");
+    CHECK(copy_at("1.5") ==
+          "error: FILE:21: parts[0].diameter = \"2 m\": must be <= 1.5 m, or set its copies farther apart: so far are "
+          "spheres 0 and 2 of \"pair\" apart, which are of two copies\n");
+}

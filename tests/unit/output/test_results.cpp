@@ -298,6 +298,14 @@ TEST_CASE("view.py is Python", "[output][paraview]")
 {
     if (std::system("python3 -c pass > /dev/null 2>&1") != 0) return;
     const sample::TemporaryFolder folder;
-    write_file(folder / "view.py", view_script());
-    CHECK(std::system(("python3 -m py_compile '" + (folder / "view.py").string() + "'").c_str()) == 0);
+    for (const bool fibre : {false, true}) {
+        write_file(folder / "view.py", view_script(fibre));
+        CHECK(std::system(("python3 -m py_compile '" + (folder / "view.py").string() + "'").c_str()) == 0);
+    }
+}
+
+TEST_CASE("view.py cuts open what is around a fibre, nothing else", "[output][paraview]")
+{
+    CHECK(view_script(true).find("\nHAS_FIBRE = True\n") != std::string::npos);
+    CHECK(view_script(false).find("\nHAS_FIBRE = False\n") != std::string::npos);
 }
