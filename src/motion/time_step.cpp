@@ -79,7 +79,8 @@ void add_interfaces(const State& state, Stiffness& s)
         for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
             const double w = state.points.weight[q];
             const Vec3 arm_a = rotate(qa, state.points.position_a[q]), arm_b = rotate(qb, state.points.position_b[q]);
-            // the forces act half-way between the points, which is far from both where a fibre has slid
+            // the forces act half-way between the points, which is far from both where a fibre has slid; and so does
+            // the jump: its frame turns by the mean of both bodies, which takes half of the jump off each point's arm
             const Vec3 half = 0.5 * (b.position[f.b[i]] + arm_b - b.position[f.a[i]] - arm_a);
             s.add(f.a[i], arm_a + half, n, w * f.normal_stiffness[i], w * f.shear_stiffness[i], "interface");
             s.add(f.b[i], arm_b - half, n, w * f.normal_stiffness[i], w * f.shear_stiffness[i], "interface");
