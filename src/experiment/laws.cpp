@@ -64,7 +64,7 @@ InterfaceLaw interface_law(const BondSpec& s)
     return l;
 }
 
-/// Shear only, with yield and failure slip (physics/bonded_spheres 8): in the energy norm of the law the same line.
+/// Shear only, with yield and failure slip (docs/theory/pull_out.md): in the energy norm of the law the same line.
 InterfaceLaw fibre_law(const BondSpec& s)
 {
     InterfaceLaw l{};

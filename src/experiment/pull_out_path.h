@@ -4,7 +4,7 @@
 // Damage control: between two events damage is frozen, and the model linear but for friction. At rest, the state is
 // scaled until the first point of the interface reaches its strength (a point of the path); then a chosen amount of
 // damage is done at once, as if the state were a little further, and the model comes to rest again. Whether the grip
-// goes on or back in between is not prescribed, so that the path turns where it must (physics/bonded_spheres 13).
+// goes on or back in between is not prescribed, so that the path turns where it must (docs/theory/pull_out.md).
 // Displacement control: the grip goes on by steps and everything softens while it comes to rest; where the path turns
 // back, the stress falls. Bonds of spheres break at rest: the grip stops where the first of them bears its strength, a
 // point of the path; the next is where the rest can bear what is left.

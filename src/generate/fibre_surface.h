@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface of a fibre as patches, each between a node or sphere of the fibre and a body of the matrix. Their normals
 // are radial and their areas add up to that of the cylinder, all along it: a bond along the line of two centres would
-// carry but a part of the axial slip (physics/bonded_spheres 8.1).
+// carry but a part of the axial slip (docs/theory/pull_out.md).
 #pragma once
 
 #include "geometry/shared_faces.h"
