@@ -238,7 +238,7 @@ TEST_CASE("what cannot be calibrated is said with its key")
 }
 
 // Bonds only touch the nearest neighbours, so that a sample of a dozen spheres across is as good as another within 2 %.
-TEST_CASE("a random packing is calibrated in at most four trials")
+TEST_CASE("a random packing is calibrated in at most four trials", "[slow]")
 {
     for (const auto& [stiffness, ratio] : {std::pair{1e6, 0.05}, std::pair{1e13, 3.0}}) {
         Case c = packed("random_dense", 1.0);

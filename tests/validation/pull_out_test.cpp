@@ -214,7 +214,7 @@ TEST_CASE("pull-out: a broken interface slides under its residual shear and unde
           Approx(0.5 * p.piece * run.path[1].end_stress / p.young_modulus).epsilon(1e-6));
 }
 
-TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pull_out]")
+TEST_CASE("pull-out: the pressure falls where the fibre is pulled thinner", "[pull_out][slow]")
 {
     Case c = pull_out_case(30.0);
     c.materials[1].poisson_ratio = 0.3;  // the bonds of the matrix have a shear ratio of their own
