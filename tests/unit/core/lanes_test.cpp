@@ -52,8 +52,8 @@ Assembly mixed_chain()
 template <class T>
 bool same_bits(const Buffer<T>& a, const Buffer<T>& b)
 {
-    return a.size() == b.size() &&
-           std::memcmp(a.host().data(), b.host().data(), static_cast<std::size_t>(a.size()) * sizeof(T)) == 0;
+    if (a.empty() || a.size() != b.size()) return a.size() == b.size();
+    return std::memcmp(a.host().data(), b.host().data(), static_cast<std::size_t>(a.size()) * sizeof(T)) == 0;
 }
 
 template <class Arrays>
