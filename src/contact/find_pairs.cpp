@@ -95,9 +95,8 @@ void find_pairs(const Model& model, State& state)
         const bool has_bond = at_bond < bonded.size() && bonded[at_bond].bodies == pair;
         fresh.a.host().push_back(a);
         fresh.b.host().push_back(b);
-        const auto law_at =
-            static_cast<std::size_t>(bodies.group[a]) * model.groups.size() + static_cast<std::size_t>(bodies.group[b]);
-        fresh.law.host().push_back(model.contact_law_of[law_at]);
+        fresh.law.host().push_back(
+            model.contact_law_of[entry_of_pair(bodies.group[a], bodies.group[b], model.groups.size())]);
         fresh.bond_slot.host().push_back(has_bond ? bonded[at_bond].slot : 0);
         fresh.bond_count.host().push_back(has_bond ? bonded[at_bond].count : 0);
     }

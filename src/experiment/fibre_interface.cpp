@@ -257,9 +257,8 @@ void part_fibres(const Case& c, Model& model, const State& state, const BondTabl
             return s.between == std::array{fibre.name, matrix.name} || s.between == std::array{matrix.name, fibre.name};
         });
         if (told || !overlaps(pair)) continue;
-        const std::size_t at =
-            static_cast<std::size_t>(pair.fibre) * model.groups.size() + static_cast<std::size_t>(pair.matrix);
-        LinearContact& law = model.contact_laws.at(model.contact_law_of[at]);
+        LinearContact& law =
+            model.contact_laws.at(model.contact_law_of[entry_of_pair(pair.fibre, pair.matrix, model.groups.size())]);
         law.area_stiffness = law.friction = 0.0;
     }
 }

@@ -11,12 +11,6 @@ namespace grainfrac {
 
 namespace {
 
-/// Of a table with a row and a column for each of n groups.
-std::size_t entry_of_pair(int a, int b, int n)
-{
-    return static_cast<std::size_t>(a) * static_cast<std::size_t>(n) + static_cast<std::size_t>(b);
-}
-
 /// A rigid wall is stiffer than the grains it meets by this factor: it must not add compliance to the specimen.
 constexpr double wall_stiffness_factor = 10.0;
 
@@ -276,7 +270,7 @@ void make_contact_laws(const Case& c, const std::vector<double>& spacing, Model&
     std::vector<std::array<std::string, 2>> betweens;
     for (const ContactSpec& s : c.contacts) betweens.push_back(s.between);
     const int n = static_cast<int>(model.groups.size());
-    model.contact_law_of.assign(entry_of_pair(n, 0, n), -1);
+    model.contact_law_of.assign(model.groups.size() * model.groups.size(), -1);
     for (int a = 0; a < n; ++a) {
         for (int b = a; b < n; ++b) {
             const int entry = most_specific(betweens, model, a, b);

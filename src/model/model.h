@@ -9,6 +9,7 @@
 #include "model/bodies.h"
 #include "model/shapes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -58,6 +59,12 @@ struct WallMotion {
     bool has_servo() const { return norm2(push_direction) > 0.0; }
 };
 
+/// Entry of groups a and b in a table of `groups` rows and columns, row by row.
+inline std::size_t entry_of_pair(int a, int b, std::size_t groups)
+{
+    return static_cast<std::size_t>(a) * groups + static_cast<std::size_t>(b);
+}
+
 struct Model {
     std::vector<Material> materials;
     std::vector<Group> groups;
@@ -69,7 +76,7 @@ struct Model {
     Buffer<ParallelLaw> parallel_laws;
     Buffer<SphereBondLaw> sphere_bond_laws;
     Buffer<LinearContact> contact_laws;
-    std::vector<std::int32_t> contact_law_of;  ///< group x group -> contact law, row by row
+    std::vector<std::int32_t> contact_law_of;  ///< entry_of_pair -> contact law
     Vec3 gravity;                              ///< [m/s^2]
     double local_damping = 0.0;                ///< alpha [-]
     bool resolve_impacts = false;        ///< the time step resolves rebounds of fragments too, not of loose grains only
