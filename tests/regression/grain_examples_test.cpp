@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Examples in short, by the program: the same input with fewer grains, faster platens, lower falls.
+#include "support/workplace.h"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
-
-namespace fs = std::filesystem;
 
 namespace {
 
 /// summary.json of an example with other values.
 nlohmann::json summary_of(const std::string& name, const std::string& values)
 {
-    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const grainfrac::test::Workplace place;
+    const std::string folder = place.folder.string();
     const std::string file = name.find('/') == name.npos ? name + "/" + name : name;
     const std::string input = std::string(GF_SOURCE_DIR) + "/examples/" + file + ".toml";
     const std::string command = std::string(GF_PROGRAM) + " run '" + input + "' --out '" + folder +
@@ -26,8 +25,6 @@ nlohmann::json summary_of(const std::string& name, const std::string& values)
     REQUIRE(std::system(command.c_str()) == 0);
     std::ifstream in(folder + "/out/summary.json");
     const nlohmann::json s = nlohmann::json::parse(in);
-    in.close();
-    fs::remove_all(folder);
     CHECK(s["energy"]["largest_relative_error"].get<double>() < 1e-3);
     CHECK(s["energy"]["relative_error"].get<double>() < 1e-3);  // at the end, where a drop bears little load
     return s;

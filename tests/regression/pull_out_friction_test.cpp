@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The path of a fibre whose broken interface rubs, by the program, against axisymmetric elasticity.
 #include "io/history_csv.h"
+#include "support/workplace.h"
 
 #include <catch2/catch.hpp>
 
@@ -33,8 +34,8 @@ HistoryTable rubbing_path(const std::string& damage_step)
     const std::string key = "failure_slip    = \"3 mm\"\n";
     REQUIRE(text.find(key) != std::string::npos);
     text.insert(text.find(key) + key.size(), "residual_shear = \"0.1 MPa\"\n");
-    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const grainfrac::test::Workplace place;
+    const std::string folder = place.folder.string();
     std::ofstream(folder + "/friction.toml") << text;
     const std::string command = std::string(GF_PROGRAM) + " run '" + folder + "/friction.toml' --out '" + folder +
                                 "/out' -q --no-report --threads 1 --set parts.matrix.diameter=1 "
@@ -45,7 +46,6 @@ HistoryTable rubbing_path(const std::string& damage_step)
     CAPTURE(command);
     REQUIRE(std::system(command.c_str()) == 0);
     HistoryTable t = read_history_csv(fs::path(folder) / "out" / "pull_out.csv");
-    fs::remove_all(folder);
     return t;
 }
 

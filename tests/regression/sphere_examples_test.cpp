@@ -2,6 +2,7 @@
 // Examples of chains of spheres in short, by the program. Figures: closed forms of docs/theory/sphere_bonds.md,
 // sections 3 and 7, and of pull_out.md.
 #include "io/history_csv.h"
+#include "support/workplace.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -25,8 +26,8 @@ struct Tables {
 
 Tables tables_of(const std::string& example, const std::string& values, double energy_error = 1e-3)
 {
-    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const grainfrac::test::Workplace place;
+    const std::string folder = place.folder.string();
     const std::string command = std::string(GF_PROGRAM) + " run '" + GF_SOURCE_DIR + "/examples/" + example +
                                 ".toml' --out '" + folder + "/out' -q --no-report --threads 1 " + values +
                                 " > /dev/null";
@@ -35,7 +36,6 @@ Tables tables_of(const std::string& example, const std::string& values, double e
     const fs::path out = fs::path(folder) / "out";
     Tables t{grainfrac::read_history_csv(out / "walls.csv"), grainfrac::read_history_csv(out / "fragments.csv"),
              grainfrac::read_history_csv(out / "history.csv")};
-    fs::remove_all(folder);
     CHECK(t.history.column("energy_error").back() < energy_error);
     return t;
 }
@@ -233,8 +233,8 @@ struct PullOutRun {
 /// Of the example of a fibre of 6 m along an axis.
 PullOutRun pulled(char axis, int threads)
 {
-    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const grainfrac::test::Workplace place;
+    const std::string folder = place.folder.string();
     const std::string ends = axis == 'x' ? "'[-2.9, 0, 0]' --set parts.fibre.fibre.to='[2.9, 0, 0]' "
                                          : "'[0, 0, -2.9]' --set parts.fibre.fibre.to='[0, 0, 2.9]' ";
     const std::string along = std::string("'\"") + axis + "\"' ";
@@ -247,8 +247,6 @@ PullOutRun pulled(char axis, int threads)
     REQUIRE(std::system(command.c_str()) == 0);
     std::ifstream in(folder + "/out/summary.json");
     const nlohmann::json s = nlohmann::json::parse(in);
-    in.close();
-    fs::remove_all(folder);
     const nlohmann::json& t = s["test"];
     return {s["state_hash"].get<std::string>(), t["peak_stress_Pa"].get<double>(),
             t["largest_exit_slip_m"].get<double>(), t["work_J_per_m2"].get<double>(),
@@ -277,8 +275,8 @@ TEST_CASE("example fibre_pullout in short: what is broken slides until little is
     const std::string key = "failure_slip    = \"3 mm\"\n";
     REQUIRE(text.find(key) != std::string::npos);
     text.insert(text.find(key) + key.size(), "residual_shear = \"0.1 MPa\"\nnormal_stiffness = 1e9\n");
-    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const grainfrac::test::Workplace place;
+    const std::string folder = place.folder.string();
     std::ofstream(folder + "/slide.toml") << text;
     const std::string command =
         std::string(GF_PROGRAM) + " run '" + folder + "/slide.toml' --out '" + folder +
@@ -290,8 +288,6 @@ TEST_CASE("example fibre_pullout in short: what is broken slides until little is
     const HistoryTable t = grainfrac::read_history_csv(fs::path(folder) / "out" / "pull_out.csv");
     std::ifstream summary_file(folder + "/out/summary.json");
     const double length = nlohmann::json::parse(summary_file)["test"]["embedded_length_m"].get<double>();
-    summary_file.close();
-    fs::remove_all(folder);
     const std::vector<double>&slip = t.column("embedded_slip_m"), &stress = t.column("end_stress_Pa");
     CHECK(slip.back() > 5.0);
     for (std::size_t i = 0; i < slip.size(); ++i) {
@@ -303,8 +299,8 @@ TEST_CASE("example fibre_pullout in short: what is broken slides until little is
 TEST_CASE("example fibre_in_grains in short: a fibre slides past grains that reach into it")
 {
     // every second layer has a corner of three prisms where the fibre is
-    std::string folder = (fs::temp_directory_path() / "grainfrac_example_XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    const grainfrac::test::Workplace place;
+    const std::string folder = place.folder.string();
     const std::string command =
         std::string(GF_PROGRAM) + " run '" + GF_SOURCE_DIR + "/examples/fibre_in_grains/fibre_in_grains.toml' --out '" +
         folder +
@@ -315,7 +311,6 @@ TEST_CASE("example fibre_in_grains in short: a fibre slides past grains that rea
     CAPTURE(command);
     REQUIRE(std::system(command.c_str()) == 0);
     const HistoryTable t = grainfrac::read_history_csv(fs::path(folder) / "out" / "pull_out.csv");
-    fs::remove_all(folder);
     const std::vector<double>&slip = t.column("embedded_slip_m"), &stress = t.column("end_stress_Pa");
     CHECK(slip.back() > 9.9e-6);
     for (std::size_t i = 0; i < slip.size(); ++i) {

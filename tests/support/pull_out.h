@@ -9,12 +9,11 @@
 #include "io/pull_out_files.h"
 #include "motion/energy.h"
 #include "motion/step.h"
+#include "support/workplace.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -118,9 +117,8 @@ inline PathSettings by_displacement(double step)
 /// Phases in pull_out.csv, each once, in their order.
 inline std::vector<int> phases_in_file(const PulledOut& run)
 {
-    std::string name = (std::filesystem::temp_directory_path() / "grainfrac_phases_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder " + name);
-    const std::filesystem::path folder = name;
+    const Workplace place;
+    const std::filesystem::path& folder = place.folder;
     PullOutFiles files(folder, {});
     for (const PullOutState& s : run.path) files.append(s, {});
     std::ifstream in(folder / "pull_out.csv");
@@ -133,7 +131,6 @@ inline std::vector<int> phases_in_file(const PulledOut& run)
         const int phase = std::stoi(line.substr(at));
         if (phases.empty() || phases.back() != phase) phases.push_back(phase);
     }
-    std::filesystem::remove_all(folder);
     return phases;
 }
 
