@@ -12,7 +12,7 @@
 // slopes; a shear that turns about the normal carries M_n, which constant shear cannot.
 #pragma once
 
-#include "contact/overlap.h"
+#include "geometry/wrench.h"
 #include "geometry/polyhedron.h"
 
 namespace grainfrac {

@@ -13,14 +13,21 @@ namespace grainfrac {
 struct PlacedCore {
     const Vec3* vertices = nullptr;  ///< body frame [m]
     int count = 0;
-    Vec3 position;  ///< [m]
-    Quat orientation;
+    Vec3 position;   ///< [m]
+    Mat3 rotation;   ///< body to world
 
-    GF_FN Vec3 at(int i) const { return position + rotate(orientation, vertices[i]); }
-    /// Index of the vertex farthest along `direction` (world frame), the lowest of equals.
-    GF_FN int support(const Vec3& direction) const { return support_in_body(rotate_back(orientation, direction)); }
-    GF_FN int support_in_body(const Vec3& d) const
+    PlacedCore() = default;
+    GF_FN PlacedCore(const Vec3* v, int n, const Vec3& x, const Quat& q)
+        : vertices(v), count(n), position(x), rotation(to_matrix(q))
     {
+    }
+
+    GF_FN Vec3 at(int i) const { return position + rotation * vertices[i]; }
+    /// Index of the vertex farthest along `direction` (world frame), the lowest of equals.
+    GF_FN int support(const Vec3& direction) const
+    {
+        if (count == 1) return 0;
+        const Vec3 d = transpose_times(rotation, direction);
         int best = 0;
         double most = dot(vertices[0], d);
         for (int i = 1; i < count; ++i) {
@@ -172,31 +179,16 @@ GF_FN bool reduce(Simplex& s)
     return true;
 }
 
-/// A core with its rotation as a matrix.
-struct Placed {
-    const PlacedCore& core;
-    Mat3 rotation;
-
-    GF_FN explicit Placed(const PlacedCore& c) : core(c), rotation(to_matrix(c.orientation)) {}
-    GF_FN Vec3 at(int i) const { return core.position + rotation * core.vertices[i]; }
-    GF_FN int support(const Vec3& direction) const
-    {
-        if (core.count == 1) return 0;
-        return core.support_in_body(direction.x * rotation[0] + direction.y * rotation[1] + direction.z * rotation[2]);
-    }
-};
-
 }  // namespace gjk_detail
 
 /// @param guess direction from a to b to start with, any non-zero vector
 /// @param corners where the last search of this pair ended, or none; brought up to date
-GF_FN ClosestPoints closest_points(const PlacedCore& core_a, const PlacedCore& core_b, const Vec3& guess,
+GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess,
                                    ClosestCorners& corners)
 {
     using gjk_detail::Corner;
     constexpr int most_rounds = 64;        // a dozen is usual; round-off can make the last rounds cycle
     constexpr double no_progress = 1e-14;  // relative decrease of the squared distance that counts as progress
-    const gjk_detail::Placed a(core_a), b(core_b);
     gjk_detail::Simplex s;
     const auto between = [&](int i, int j) {
         const Vec3 pa = a.at(i), pb = b.at(j);
@@ -205,7 +197,7 @@ GF_FN ClosestPoints closest_points(const PlacedCore& core_a, const PlacedCore& c
     const auto corner = [&](const Vec3& direction) { return between(a.support(direction), b.support(-direction)); };
     const auto known_vertex = [](int i, const PlacedCore& core) { return i >= 0 && i < core.count; };
     for (int i = 0; i < corners.count; ++i) {
-        if (known_vertex(corners.a[i], core_a) && known_vertex(corners.b[i], core_b))
+        if (known_vertex(corners.a[i], a) && known_vertex(corners.b[i], b))
             s.corner[s.count++] = between(corners.a[i], corners.b[i]);
     }
     corners.count = 0;

@@ -27,6 +27,11 @@ GF_FN Mat3 transpose(const Mat3& m)
 {
     return {{{m[0].x, m[1].x, m[2].x}, {m[0].y, m[1].y, m[2].y}, {m[0].z, m[1].z, m[2].z}}};
 }
+/// transpose(m) a
+GF_FN Vec3 transpose_times(const Mat3& m, const Vec3& a)
+{
+    return a.x * m[0] + a.y * m[1] + a.z * m[2];
+}
 GF_FN Mat3 operator*(const Mat3& a, const Mat3& b)
 {
     const Mat3 t = transpose(b);

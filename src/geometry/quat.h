@@ -39,8 +39,10 @@ GF_FN Vec3 rotate_back(const Quat& q, const Vec3& a)
 }
 GF_FN Mat3 to_matrix(const Quat& q)
 {
-    const Vec3 cx = rotate(q, {1, 0, 0}), cy = rotate(q, {0, 1, 0}), cz = rotate(q, {0, 0, 1});
-    return {{{cx.x, cy.x, cz.x}, {cx.y, cy.y, cz.y}, {cx.z, cy.z, cz.z}}};
+    const double x = 2.0 * q.x, y = 2.0 * q.y, z = 2.0 * q.z;
+    const double xx = x * q.x, yy = y * q.y, zz = z * q.z, xy = x * q.y, yz = y * q.z, zx = z * q.x;
+    const double wx = x * q.w, wy = y * q.w, wz = z * q.w;
+    return {{{1.0 - yy - zz, xy - wz, zx + wy}, {xy + wz, 1.0 - zz - xx, yz - wx}, {zx - wy, yz + wx, 1.0 - xx - yy}}};
 }
 /// Rotation by `angle` [rad] about the unit vector `axis`.
 GF_FN Quat from_axis_angle(const Vec3& axis, double angle)

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Overlap of two bodies at faces that look at each other (overlap.h).
+#pragma once
+
+#include "contact/contact_body.h"
+#include "contact/flat_polygon.h"
+#include "contact/overlap.h"
+
+namespace grainfrac {
+
+namespace face_detail {
+
+/// Cosines of the tilt between which faces stop to count as facing each other (37 and 60 degrees).
+constexpr double facing_cosine = 0.8, turned_cosine = 0.5;
+/// Squared sine of a tilt below which it is round-off.
+constexpr double same_plane = 1e-20;
+/// Edges nearer to a window's edge than this, over the squared length of that edge, are the window's.
+constexpr double same_edge = 1e-9;
+
+/// Moments of the area of a polygon about its first corner, from the closed forms of its triangles there.
+struct AreaMoments {
+    double one = 0.0, u = 0.0, v = 0.0;     // int dA, u dA, v dA
+    double uu = 0.0, uv = 0.0, vv = 0.0;    //
+    double u_rr = 0.0, v_rr = 0.0;          // int u (u^2 + v^2) dA
+
+    GF_FN explicit AreaMoments(const FlatPolygon& p)
+    {
+        for (int i = 1; i + 1 < p.count; ++i) {
+            // corners 0, a, b: with f, g, h linear and F = f_a + f_b, int f g = A/12 (F G + sum f g) and
+            // int f g h = A/60 (F G H + F sum g h + G sum f h + H sum f g + 2 sum f g h)
+            const double au = p.x[i] - p.x[0], av = p.y[i] - p.y[0], bu = p.x[i + 1] - p.x[0], bv = p.y[i + 1] - p.y[0];
+            const double area2 = au * bv - bu * av, U = au + bu, V = av + bv;
+            const double suu = au * au + bu * bu, suv = au * av + bu * bv, svv = av * av + bv * bv;
+            const double a2 = au * au + av * av, b2 = bu * bu + bv * bv, most = U * U + V * V + a2 + b2;
+            one += area2;
+            u += area2 * U;
+            v += area2 * V;
+            uu += area2 * (suu + U * U);
+            uv += area2 * (suv + U * V);
+            vv += area2 * (svv + V * V);
+            u_rr += area2 * (U * most + 2.0 * (U * suu + V * suv + au * a2 + bu * b2));
+            v_rr += area2 * (V * most + 2.0 * (U * suv + V * svv + av * a2 + bv * b2));
+        }
+        one *= 1.0 / 2.0;
+        u *= 1.0 / 6.0;
+        v *= 1.0 / 6.0;
+        uu *= 1.0 / 24.0;
+        uv *= 1.0 / 24.0;
+        vv *= 1.0 / 24.0;
+        u_rr *= 1.0 / 120.0;
+        v_rr *= 1.0 / 120.0;
+    }
+};
+
+/// Sums over the points of an edge: of what acts there, and of that times the place along the edge.
+struct EdgeSum {
+    double all = 0.0, along = 0.0;
+
+    GF_FN void add(double x, double t)
+    {
+        all += x;
+        along += t * x;
+    }
+};
+
+/// The plane of a face, and the moving face over it.
+struct FacePlane {
+    Vec3 origin, e1, e2, N;               // of the plane
+    Vec3 beta;                            // inward normal of the moving face
+    double cosine = 0.0;                  // beta . N
+    double z0 = 0.0, zx = 0.0, zy = 0.0;  // height of the moving face over the plane
+    double radii = 0.0;
+
+    GF_FN FacePlane(const PlacedFace& fixed, const PlacedFace& moving, double cosine_of_both, double sum_of_radii)
+        : N(fixed.normal), beta(-moving.normal), cosine(cosine_of_both), radii(sum_of_radii)
+    {
+        origin = fixed.offset * N;
+        e1 = any_perpendicular(N);
+        e2 = cross(N, e1);
+        z0 = (-moving.offset - dot(beta, origin)) / cosine;
+        zx = -dot(beta, e1) / cosine;
+        zy = -dot(beta, e2) / cosine;
+    }
+
+    /// Over the part `p` of the plane.
+    GF_FN Overlap overlap(const FlatPolygon& p) const
+    {
+        Overlap o;
+        const double x0 = p.x[0], y0 = p.y[0];
+        const double g0 = radii - z0 - zx * x0 - zy * y0, gu = -zx, gv = -zy;
+        const AreaMoments m(p);
+        const double V = g0 * m.one + gu * m.u + gv * m.v;
+        const double Xu = g0 * m.u + gu * m.uu + gv * m.uv, Xv = g0 * m.v + gu * m.uv + gv * m.vv;
+        const double S = 0.5 * (g0 * V + gu * Xu + gv * Xv);
+        if (V <= 0.0 || S <= 0.0) return o;
+        const double m_rr = m.uu + m.vv, cu = Xu / V, cv = Xv / V, c2 = cu * cu + cv * cv;
+        o.m.V = V;
+        o.m.S = S;
+        o.m.Q = larger(0.0, g0 * m_rr + gu * m.u_rr + gv * m.v_rr - V * c2);
+
+        const Vec3 push = beta * (1.0 / cosine);
+        const Vec3 f1 = e1 + zx * N, f2 = e2 + zy * N, corner = origin + z0 * N + x0 * f1 + y0 * f2;
+        const Vec3 arm = cross(corner, push), arm_u = cross(f1, push), arm_v = cross(f2, push);
+        const auto act = [&](Wrench& w, double D, double Du, double Dv) {  // int D dA, u D dA, v D dA
+            w.force = D * push;
+            w.moment = D * arm + Du * arm_u + Dv * arm_v;
+        };
+        act(o.by_V, m.one, m.u, m.v);
+        act(o.by_S, V, Xu, Xv);
+        act(o.by_Q, m_rr - 2.0 * (cu * m.u + cv * m.v) + c2 * m.one,
+            m.u_rr - 2.0 * (cu * m.uu + cv * m.uv) + c2 * m.u, m.v_rr - 2.0 * (cu * m.uv + cv * m.vv) + c2 * m.v);
+
+        for (int i = 0; i < p.count; ++i) {
+            if (!p.moving[i]) continue;
+            const int j = i + 1 < p.count ? i + 1 : 0;
+            const double ui = p.x[i] - x0, vi = p.y[i] - y0, du = p.x[j] - p.x[i], dv = p.y[j] - p.y[i];
+            EdgeSum by_V, by_S, by_Q;
+            const auto at = [&](double t, double part) {
+                const double u = ui + t * du, v = vi + t * dv, g = larger(0.0, g0 + gu * u + gv * v), weight = part * g;
+                by_V.add(weight, t);
+                by_S.add(0.5 * weight * g, t);
+                by_Q.add(weight * ((u - cu) * (u - cu) + (v - cv) * (v - cv)), t);
+            };
+            constexpr double t = 0.112701665379258311;  // Gauss, exact for quintics
+            at(t, 5.0 / 18.0);
+            at(0.5, 8.0 / 18.0);
+            at(1.0 - t, 5.0 / 18.0);
+            const Vec3 inward = du * e2 - dv * e1;  // times the length
+            const Vec3 arm_i = cross(corner + ui * f1 + vi * f2, inward), arm_ij = cross(du * f1 + dv * f2, inward);
+            const auto act_on = [&](Wrench& w, const EdgeSum& D1) {
+                w.force += D1.all * inward;
+                w.moment += D1.all * arm_i + D1.along * arm_ij;
+            };
+            act_on(o.by_V, by_V);
+            act_on(o.by_S, by_S);
+            act_on(o.by_Q, by_Q);
+        }
+        return o;
+    }
+};
+
+/// Outline of a face along the plane's normal; `backwards` for the face that looks at the plane, so that both run
+/// counter-clockwise.
+GF_FN void outline(const PlacedBody& body, const PlacedFace& face, const FacePlane& plane, bool backwards,
+                   FlatPolygon& p)
+{
+    const std::int32_t* loop = body.shapes.loops.data + face.begin;
+    const Vec3 d1 = transpose_times(body.rotation, plane.e1), d2 = transpose_times(body.rotation, plane.e2);
+    const double x = dot(body.centre, plane.e1), y = dot(body.centre, plane.e2);
+    for (int k = 0; k < face.count; ++k) {
+        const Vec3& v = body.vertices[loop[backwards ? face.count - 1 - k : k]];
+        p.add(x + dot(v, d1), y + dot(v, d2), backwards);
+    }
+}
+
+}  // namespace face_detail
+
+/// What the moving face presses into the fixed one, over the plane of the latter. Nothing if V = 0.
+GF_FN Overlap face_overlap(const PlacedBody& fixed, const PlacedFace& fixed_face, const PlacedBody& moving,
+                           const PlacedFace& moving_face, double cosine, double radii)
+{
+    using namespace face_detail;
+    // penetration at the corners first: mostly there is none
+    const Vec3 d = transpose_times(moving.rotation, fixed_face.normal);
+    const double clear = radii + fixed_face.offset - dot(fixed_face.normal, moving.centre);
+    const std::int32_t* loop = moving.shapes.loops.data + moving_face.begin;
+    double g[max_face_vertices];
+    bool touches = false, cut = false;
+    for (int k = 0; k < moving_face.count; ++k) {
+        g[k] = clear - dot(d, moving.vertices[loop[moving_face.count - 1 - k]]);
+        touches = touches || g[k] > 0.0;
+        cut = cut || !(g[k] > 0.0);
+    }
+    if (!touches) return {};
+
+    const FacePlane plane(fixed_face, moving_face, cosine, radii);
+    ClippedPolygon shared;
+    outline(moving, moving_face, plane, true, shared.polygon());
+    if (cut) shared.keep_positive(g, 0.0);
+    FlatPolygon window;
+    outline(fixed, fixed_face, plane, false, window);
+    for (int i = 0; i < window.count && shared.polygon().count > 0; ++i) {
+        const int j = i + 1 < window.count ? i + 1 : 0;
+        const double dx = window.x[j] - window.x[i], dy = window.y[j] - window.y[i];
+        shared.keep_positive(dy * window.x[i] - dx * window.y[i], -dy, dx, same_edge * (dx * dx + dy * dy));
+    }
+    if (shared.polygon().count < 3) return {};
+    return plane.overlap(shared.polygon());
+}
+
+/// Adds two faces, over the plane of either; b moves. g is the true distance if the edge in contact is the other
+/// body's, else too small, so each plane counts by what it finds:
+///   V = (V_1^2 + V_2^2)/(V_1 + V_2),   S = (S_1 V_1 + S_2 V_2)/(V_1 + V_2),   Q alike
+/// and both the same where the faces are parallel.
+GF_FN void add_face_pair(const PlacedBody& a, const PlacedFace& face_a, const PlacedBody& b, const PlacedFace& face_b,
+                         double radii, Overlap& sum)
+{
+    using namespace face_detail;
+    const double cosine = -dot(face_a.normal, face_b.normal);
+    if (cosine <= turned_cosine) return;
+    Overlap over[2];
+    over[0] = face_overlap(a, face_a, b, face_b, cosine, radii);
+    const Vec3 tilt = cross(face_a.normal, face_b.normal);
+    if (norm2(tilt) > same_plane) over[1] = face_overlap(b, face_b, a, face_a, cosine, radii);
+    const double total = over[0].m.V + over[1].m.V;
+    if (total <= 0.0) return;
+
+    const double t = smaller(1.0, (cosine - turned_cosine) / (facing_cosine - turned_cosine));
+    const double weight = t * t * (3.0 - 2.0 * t), slope = 6.0 * t * (1.0 - t) / (facing_cosine - turned_cosine);
+    OverlapMoments m;
+    for (const Overlap& o : over) m.add(o.m, o.m.V / total);
+    sum.m.add(m, weight);
+    for (int k = 0; k < 2; ++k) {
+        const Overlap& o = over[k];
+        if (o.m.V <= 0.0) continue;
+        const double side = k == 0 ? weight : -weight, share = side * o.m.V / total, more = side / total;
+        sum.by_V.add(o.by_V, share + more * (o.m.V - m.V));
+        sum.by_S.add(o.by_S, share);
+        sum.by_S.add(o.by_V, more * (o.m.S - m.S));
+        sum.by_Q.add(o.by_Q, share);
+        sum.by_Q.add(o.by_V, more * (o.m.Q - m.Q));
+    }
+    if (slope > 0.0) {  // d cos = theta . (beta x N) = theta . (N_a x N_b)
+        sum.by_V.moment -= slope * m.V * tilt;
+        sum.by_S.moment -= slope * m.S * tilt;
+        sum.by_Q.moment -= slope * m.Q * tilt;
+    }
+}
+
+}  // namespace grainfrac
