@@ -53,30 +53,47 @@ struct PlacedFace {
     Vec3 normal;
     double offset;
     int begin, count;  // into loops
+    bool bears;        // whether anything of the other body can be pressed over it
 };
 
 /// Faces that look along the contact's normal less than this cannot face one of the other body across the contact.
 inline constexpr double least_facing = 0.3;
+/// Squared sine of the angle from which edges do not count as lying side by side (8 degrees).
+inline constexpr double crossing_sine2 = 1.9e-2;
 
-/// The faces of a body that may be in contact: those that look along a direction and are at its closest point.
+/// Two cores between which there is a slab: thick `distance`, across the unit `normal` from a to b. What presses is
+/// nearer than `reach` along the normal N of a face, or across an edge d, and farther than the slab is thick:
+///   distance/reach < N . normal,   (d . normal)^2 < 1 - (distance/reach)^2.
+/// Of stiff bodies, which press little, hardly a face or an edge is left to be looked at.
+struct Slab {
+    Vec3 normal;
+    double distance, reach;
+
+    GF_FN Slab seen_from_b() const { return {-normal, distance, reach}; }
+    GF_FN double steepest2() const { return 1.0 - distance * distance / (reach * reach); }
+};
+
+/// The faces of a body that may be in contact: those that look into the slab and are at the closest point.
 class FacingFaces {
 public:
     int count = 0;
 
-    GF_FN FacingFaces(const PlacedBody& body, const Vec3& direction, const Vec3& closest, double reach)
+    /// `closest`: the body's point at the slab.
+    GF_FN FacingFaces(const PlacedBody& body, const Slab& slab, const Vec3& closest)
     {
-        const Vec3 d = transpose_times(body.rotation, direction);
+        const Vec3 d = transpose_times(body.rotation, slab.normal);
         const Vec3 x = transpose_times(body.rotation, closest - body.centre);
         const ShapesView& s = body.shapes;
         for (int f = s.face_begin[body.shape]; f < s.face_begin[body.shape + 1]; ++f) {
             const Vec3 n = s.face_normals[f];
-            const double offset = s.face_offsets[f];
-            if (!(dot(n, d) > least_facing && offset - dot(n, x) < reach) || count == room) continue;
+            const double facing = dot(n, d), offset = s.face_offsets[f];
+            if (!(facing > least_facing && offset - dot(n, x) < slab.reach) || count == room) continue;
             PlacedFace& p = faces_[count++];
             p.normal = body.rotation * n;
             p.offset = offset + dot(p.normal, body.centre);
             p.begin = s.loop_begin[f];
             p.count = s.loop_begin[f + 1] - p.begin;
+            p.bears = facing * slab.reach > slab.distance;
         }
     }
     GF_FN const PlacedFace& operator[](int i) const { return faces_[i]; }
@@ -94,29 +111,32 @@ struct PlacedEdge {
     double length;
 };
 
-/// Edges of a body that reach to within `depth` of its farthest point in `direction`: the other body is beyond, so no
-/// other edge can be in contact.
-class FarthestEdges {
+/// Edges of a body that reach to within `depth` of the slab, and are not steeper to it than those can be that lie
+/// beside one of the other body.
+class FacingEdges {
 public:
     int count = 0;
 
-    GF_FN FarthestEdges(const PlacedBody& body, const Vec3& direction, const Vec3& farthest, double depth)
+    GF_FN FacingEdges(const PlacedBody& body, const Slab& slab, const Vec3& closest, double depth, double steepest2)
     {
-        const Vec3 d = transpose_times(body.rotation, direction);
-        const double least = dot(farthest - body.centre, direction) - depth;
+        const Vec3 d = transpose_times(body.rotation, slab.normal);
+        const double least = dot(closest - body.centre, slab.normal) - depth;
         constexpr int known = 64;
         double height[known];
         for (int v = 0; v < body.vertex_count && v < known; ++v) height[v] = dot(body.vertices[v], d);
-        const auto reaches = [&](int v) { return (v < known ? height[v] : dot(body.vertices[v], d)) > least; };
+        const auto height_of = [&](int v) { return v < known ? height[v] : dot(body.vertices[v], d); };
         const ShapesView& s = body.shapes;
         for (int e = s.edge_begin[body.shape]; e < s.edge_begin[body.shape + 1]; ++e) {
             const Edge ends = s.edges[e];
-            if (!(reaches(ends.from) || reaches(ends.to)) || count == room) continue;
-            const Vec3 along = body.rotation * (body.vertices[ends.to] - body.vertices[ends.from]);
+            const double from = height_of(ends.from), to = height_of(ends.to);
+            if (!(from > least || to > least) || count == room) continue;
+            const Vec3 between = body.vertices[ends.to] - body.vertices[ends.from];
+            const double length2 = norm2(between);
+            if ((to - from) * (to - from) > steepest2 * length2) continue;
             PlacedEdge& p = edges_[count++];
-            p.length = norm(along);
+            p.length = std::sqrt(length2);
             p.from = body.at(ends.from);
-            p.d = along * (1.0 / p.length);
+            p.d = body.rotation * between * (1.0 / p.length);
         }
     }
     GF_FN const PlacedEdge& operator[](int i) const { return edges_[i]; }
@@ -127,6 +147,13 @@ private:
         PlacedEdge edges_[room];
     };
 };
+
+/// Steepest edges of a that can lie beside those of b.
+GF_FN double steepest2_beside(double steepest2)
+{
+    const double s = std::sqrt(steepest2) + std::sqrt(crossing_sine2);  // of the sum of two angles, or more
+    return s * s;
+}
 
 /// A_ref: of the body with the smaller corners [m^2].
 GF_FN double reference_area(const ContactBody& a, const ContactBody& b)

@@ -19,9 +19,9 @@ constexpr double same_edge = 1e-9;
 
 /// Moments of the area of a polygon about its first corner, from the closed forms of its triangles there.
 struct AreaMoments {
-    double one = 0.0, u = 0.0, v = 0.0;     // int dA, u dA, v dA
-    double uu = 0.0, uv = 0.0, vv = 0.0;    //
-    double u_rr = 0.0, v_rr = 0.0;          // int u (u^2 + v^2) dA
+    double one = 0.0, u = 0.0, v = 0.0;   // int dA, u dA, v dA
+    double uu = 0.0, uv = 0.0, vv = 0.0;  //
+    double u_rr = 0.0, v_rr = 0.0;        // int u (u^2 + v^2) dA
 
     GF_FN explicit AreaMoments(const FlatPolygon& p)
     {
@@ -107,8 +107,8 @@ struct FacePlane {
         };
         act(o.by_V, m.one, m.u, m.v);
         act(o.by_S, V, Xu, Xv);
-        act(o.by_Q, m_rr - 2.0 * (cu * m.u + cv * m.v) + c2 * m.one,
-            m.u_rr - 2.0 * (cu * m.uu + cv * m.uv) + c2 * m.u, m.v_rr - 2.0 * (cu * m.uv + cv * m.vv) + c2 * m.v);
+        act(o.by_Q, m_rr - 2.0 * (cu * m.u + cv * m.v) + c2 * m.one, m.u_rr - 2.0 * (cu * m.uu + cv * m.uv) + c2 * m.u,
+            m.v_rr - 2.0 * (cu * m.uv + cv * m.vv) + c2 * m.v);
 
         for (int i = 0; i < p.count; ++i) {
             if (!p.moving[i]) continue;
@@ -196,12 +196,14 @@ GF_FN void add_face_pair(const PlacedBody& a, const PlacedFace& face_a, const Pl
                          double radii, Overlap& sum)
 {
     using namespace face_detail;
+    if (!(face_a.bears || face_b.bears)) return;
     const double cosine = -dot(face_a.normal, face_b.normal);
     if (cosine <= turned_cosine) return;
-    Overlap over[2];
-    over[0] = face_overlap(a, face_a, b, face_b, cosine, radii);
     const Vec3 tilt = cross(face_a.normal, face_b.normal);
-    if (norm2(tilt) > same_plane) over[1] = face_overlap(b, face_b, a, face_a, cosine, radii);
+    const bool one_plane = norm2(tilt) <= same_plane;
+    Overlap over[2];
+    if (face_a.bears || one_plane) over[0] = face_overlap(a, face_a, b, face_b, cosine, radii);
+    if (face_b.bears && !one_plane) over[1] = face_overlap(b, face_b, a, face_a, cosine, radii);
     const double total = over[0].m.V + over[1].m.V;
     if (total <= 0.0) return;
 

@@ -9,8 +9,8 @@ namespace grainfrac {
 
 namespace line_detail {
 
-/// Squared sines of the angle between which edges stop to count as lying side by side (2 and 8 degrees).
-constexpr double parallel_sine2 = 1.2e-3, crossing_sine2 = 1.9e-2;
+/// Squared sine of the angle from which edges count less as lying side by side (2 degrees).
+constexpr double parallel_sine2 = 1.2e-3;
 
 /// visit(wrench, D) for each moment: D its integrand where g changes, at a point with gap g and squared distance
 /// `spread` from the centroid.
@@ -115,7 +115,8 @@ struct EdgesSideBySide {
     {
         Overlap o;
         RawMoments raw;
-        integrate([&](const Vec3& x, double gap, const Vec3&, const Vec3&, double w) { raw.add(gap, x, 0.5 * gap * w); });
+        integrate(
+            [&](const Vec3& x, double gap, const Vec3&, const Vec3&, double w) { raw.add(gap, x, 0.5 * gap * w); });
         Vec3 centroid;
         o.m = raw.about_centroid(centroid);
         if (o.m.V <= 0.0) return o;
@@ -228,7 +229,8 @@ GF_FN void add_edge_pair(const PlacedEdge& i, const PlacedEdge& j, double radii,
     edges.radii = radii;
     if (!find_part(sine2, edges)) return;
     const double x = larger(0.0, (sine2 - parallel_sine2) / (crossing_sine2 - parallel_sine2));
-    const double weight = 1.0 - x * x * (3.0 - 2.0 * x), slope = -6.0 * x * (1.0 - x) / (crossing_sine2 - parallel_sine2);
+    const double weight = 1.0 - x * x * (3.0 - 2.0 * x),
+                 slope = -6.0 * x * (1.0 - x) / (crossing_sine2 - parallel_sine2);
     const Overlap o = edges.overlap();
     sum.add(o, weight);
     if (slope != 0.0) {

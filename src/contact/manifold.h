@@ -154,7 +154,9 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
     const double g_p = radii - near.distance;
     const Vec3 middle = near.a + (0.5 * (near.distance + a.radius() - b.radius())) * n;
     const PlacedBody body_a(a, core_a, middle), body_b(b, core_b, middle);  // all points from there
-    const FacingFaces faces_a(body_a, n, near.a - middle, radii), faces_b(body_b, -n, near.b - middle, radii);
+    const Vec3 at_a = near.a - middle, at_b = near.b - middle;
+    const Slab slab{n, near.distance, radii}, other_side = slab.seen_from_b();
+    const FacingFaces faces_a(body_a, slab, at_a), faces_b(body_b, other_side, at_b);
 
     Overlap faces, lines;
     for (int i = 0; i < faces_a.count; ++i) {
@@ -163,14 +165,20 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
     const PressedArea pressed(faces.m, A_ref);
     if (pressed.rest > 0.0) {  // else faces carry alone
         if (a.has_one_edge()) {
-            for (int j = 0; j < faces_b.count; ++j) lines.add_other_side(rod_overlap(body_b, faces_b[j], body_a, radii));
+            for (int j = 0; j < faces_b.count; ++j)
+                lines.add_other_side(rod_overlap(body_b, faces_b[j], body_a, radii));
         } else if (b.has_one_edge()) {
-            for (int i = 0; i < faces_a.count; ++i) lines.add(rod_overlap(body_a, faces_a[i], body_b, radii), 1.0);
+            for (int i = 0; i < faces_a.count; ++i) {
+                if (faces_a[i].bears) lines.add(rod_overlap(body_a, faces_a[i], body_b, radii), 1.0);
+            }
         }
-        const double depth = 1.01 * g_p;
-        const FarthestEdges edges_a(body_a, n, near.a - middle, depth), edges_b(body_b, -n, near.b - middle, depth);
-        for (int i = 0; i < edges_a.count; ++i) {
-            for (int j = 0; j < edges_b.count; ++j) add_edge_pair(edges_a[i], edges_b[j], radii, lines);
+        const double depth = 1.01 * g_p, steepest2 = slab.steepest2();
+        const FacingEdges edges_b(body_b, other_side, at_b, depth, steepest2);
+        if (edges_b.count > 0) {
+            const FacingEdges edges_a(body_a, slab, at_a, depth, steepest2_beside(steepest2));
+            for (int i = 0; i < edges_a.count; ++i) {
+                for (int j = 0; j < edges_b.count; ++j) add_edge_pair(edges_a[i], edges_b[j], radii, lines);
+            }
         }
     }
 

@@ -12,8 +12,8 @@
 // slopes; a shear that turns about the normal carries M_n, which constant shear cannot.
 #pragma once
 
-#include "geometry/wrench.h"
 #include "geometry/polyhedron.h"
+#include "geometry/wrench.h"
 
 namespace grainfrac {
 

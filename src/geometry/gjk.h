@@ -13,8 +13,8 @@ namespace grainfrac {
 struct PlacedCore {
     const Vec3* vertices = nullptr;  ///< body frame [m]
     int count = 0;
-    Vec3 position;   ///< [m]
-    Mat3 rotation;   ///< body to world
+    Vec3 position;  ///< [m]
+    Mat3 rotation;  ///< body to world
 
     PlacedCore() = default;
     GF_FN PlacedCore(const Vec3* v, int n, const Vec3& x, const Quat& q)
@@ -183,8 +183,7 @@ GF_FN bool reduce(Simplex& s)
 
 /// @param guess direction from a to b to start with, any non-zero vector
 /// @param corners where the last search of this pair ended, or none; brought up to date
-GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess,
-                                   ClosestCorners& corners)
+GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, const Vec3& guess, ClosestCorners& corners)
 {
     using gjk_detail::Corner;
     constexpr int most_rounds = 64;        // a dozen is usual; round-off can make the last rounds cycle
