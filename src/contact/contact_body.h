@@ -6,6 +6,7 @@
 #include "model/shapes.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace grainfrac {
@@ -121,18 +122,23 @@ public:
     {
         const Vec3 d = transpose_times(body.rotation, slab.normal);
         const double least = dot(closest - body.centre, slab.normal) - depth;
-        constexpr int known = 64;
-        double height[known];
-        for (int v = 0; v < body.vertex_count && v < known; ++v) height[v] = dot(body.vertices[v], d);
-        const auto height_of = [&](int v) { return v < known ? height[v] : dot(body.vertices[v], d); };
+        constexpr int known = 64;  // vertices looked at once, not with each edge
+        double heights[known];
+        std::uint64_t reaching = 0;
+        for (int v = 0; v < body.vertex_count && v < known; ++v) {
+            heights[v] = dot(body.vertices[v], d);
+            reaching |= static_cast<std::uint64_t>(heights[v] > least) << v;
+        }
+        const auto height = [&](int v) { return v < known ? heights[v] : dot(body.vertices[v], d); };
+        const auto reaches = [&](int v) { return v < known ? (reaching >> v & 1U) != 0 : height(v) > least; };
         const ShapesView& s = body.shapes;
         for (int e = s.edge_begin[body.shape]; e < s.edge_begin[body.shape + 1]; ++e) {
             const Edge ends = s.edges[e];
-            const double from = height_of(ends.from), to = height_of(ends.to);
-            if (!(from > least || to > least) || count == room) continue;
+            if (!(reaches(ends.from) || reaches(ends.to)) || count == room) continue;
+            const double rise = height(ends.to) - height(ends.from);
             const Vec3 between = body.vertices[ends.to] - body.vertices[ends.from];
             const double length2 = norm2(between);
-            if ((to - from) * (to - from) > steepest2 * length2) continue;
+            if (rise * rise > steepest2 * length2) continue;
             PlacedEdge& p = edges_[count++];
             p.length = std::sqrt(length2);
             p.from = body.at(ends.from);

@@ -52,42 +52,39 @@ struct AreaMoments {
     }
 };
 
-/// Sums over the points of an edge: of what acts there, and of that times the place along the edge.
+/// What acts along an edge, and that times the place along it, 0 to 1; per length.
 struct EdgeSum {
-    double all = 0.0, along = 0.0;
-
-    GF_FN void add(double x, double t)
-    {
-        all += x;
-        along += t * x;
-    }
+    double all, along;
 };
 
-/// The plane of a face, and the moving face over it.
+/// In the frame of the fixed face: the moving one over it, and what it presses. All points from one origin.
 struct FacePlane {
-    Vec3 origin, e1, e2, N;               // of the plane
-    Vec3 beta;                            // inward normal of the moving face
-    double cosine = 0.0;                  // beta . N
-    double z0 = 0.0, zx = 0.0, zy = 0.0;  // height of the moving face over the plane
-    double radii = 0.0;
+    Vec3 e1, e2, N;     // the frame; the plane at z = offset
+    double z0, zx, zy;  // height of the moving face
+    double clear;       // penetration = clear - height
 
-    GF_FN FacePlane(const PlacedFace& fixed, const PlacedFace& moving, double cosine_of_both, double sum_of_radii)
-        : N(fixed.normal), beta(-moving.normal), cosine(cosine_of_both), radii(sum_of_radii)
+    GF_FN FacePlane(const PlacedFace& fixed, const PlacedFace& moving, double cosine, double radii)
+        : N(fixed.normal), clear(radii + fixed.offset)
     {
-        origin = fixed.offset * N;
-        e1 = any_perpendicular(N);
-        e2 = cross(N, e1);
-        z0 = (-moving.offset - dot(beta, origin)) / cosine;
-        zx = -dot(beta, e1) / cosine;
-        zy = -dot(beta, e2) / cosine;
+        frame_of(N, e1, e2);
+        const double per_cosine = 1.0 / cosine;
+        z0 = -moving.offset * per_cosine;
+        zx = dot(moving.normal, e1) * per_cosine;
+        zy = dot(moving.normal, e2) * per_cosine;
+    }
+
+    GF_FN Wrench to_world(const Wrench& w) const
+    {
+        const auto turn = [this](const Vec3& a) { return a.x * e1 + a.y * e2 + a.z * N; };
+        return {turn(w.force), turn(w.moment)};
     }
 
     /// Over the part `p` of the plane.
     GF_FN Overlap overlap(const FlatPolygon& p) const
     {
         Overlap o;
-        const double x0 = p.x[0], y0 = p.y[0];
-        const double g0 = radii - z0 - zx * x0 - zy * y0, gu = -zx, gv = -zy;
+        const double x0 = p.x[0], y0 = p.y[0], zc = z0 + zx * x0 + zy * y0;
+        const double g0 = clear - zc, gu = -zx, gv = -zy;
         const AreaMoments m(p);
         const double V = g0 * m.one + gu * m.u + gv * m.v;
         const double Xu = g0 * m.u + gu * m.uu + gv * m.uv, Xv = g0 * m.v + gu * m.uv + gv * m.vv;
@@ -98,43 +95,41 @@ struct FacePlane {
         o.m.S = S;
         o.m.Q = larger(0.0, g0 * m_rr + gu * m.u_rr + gv * m.v_rr - V * c2);
 
-        const Vec3 push = beta * (1.0 / cosine);
-        const Vec3 f1 = e1 + zx * N, f2 = e2 + zy * N, corner = origin + z0 * N + x0 * f1 + y0 * f2;
-        const Vec3 arm = cross(corner, push), arm_u = cross(f1, push), arm_v = cross(f2, push);
-        const auto act = [&](Wrench& w, double D, double Du, double Dv) {  // int D dA, u D dA, v D dA
-            w.force = D * push;
-            w.moment = D * arm + Du * arm_u + Dv * arm_v;
+        // int D dA, u D dA and v D dA; the push is beta/(beta . N)
+        const auto act = [&](double D, double Du, double Dv) {
+            const Vec3 push{gu, gv, 1.0};
+            return Wrench{D * push, cross({D * x0 + Du, D * y0 + Dv, D * zc + zx * Du + zy * Dv}, push)};
         };
-        act(o.by_V, m.one, m.u, m.v);
-        act(o.by_S, V, Xu, Xv);
-        act(o.by_Q, m_rr - 2.0 * (cu * m.u + cv * m.v) + c2 * m.one, m.u_rr - 2.0 * (cu * m.uu + cv * m.uv) + c2 * m.u,
-            m.v_rr - 2.0 * (cu * m.uv + cv * m.vv) + c2 * m.v);
+        Wrench by_V = act(m.one, m.u, m.v), by_S = act(V, Xu, Xv);
+        Wrench by_Q =
+            act(m_rr - 2.0 * (cu * m.u + cv * m.v) + c2 * m.one, m.u_rr - 2.0 * (cu * m.uu + cv * m.uv) + c2 * m.u,
+                m.v_rr - 2.0 * (cu * m.uv + cv * m.vv) + c2 * m.v);
 
         for (int i = 0; i < p.count; ++i) {
             if (!p.moving[i]) continue;
             const int j = i + 1 < p.count ? i + 1 : 0;
-            const double ui = p.x[i] - x0, vi = p.y[i] - y0, du = p.x[j] - p.x[i], dv = p.y[j] - p.y[i];
-            EdgeSum by_V, by_S, by_Q;
-            const auto at = [&](double t, double part) {
-                const double u = ui + t * du, v = vi + t * dv, g = larger(0.0, g0 + gu * u + gv * v), weight = part * g;
-                by_V.add(weight, t);
-                by_S.add(0.5 * weight * g, t);
-                by_Q.add(weight * ((u - cu) * (u - cu) + (v - cv) * (v - cv)), t);
+            const double ui = p.x[i] - x0, vi = p.y[i] - y0, uj = p.x[j] - x0, vj = p.y[j] - y0;
+            const double gi = larger(0.0, g0 + gu * ui + gv * vi), gj = larger(0.0, g0 + gu * uj + gv * vj);
+            const double du = uj - ui, dv = vj - vi, length2 = du * du + dv * dv;
+            const double ri = (ui - cu) * (ui - cu) + (vi - cv) * (vi - cv);
+            const double rj = (uj - cu) * (uj - cu) + (vj - cv) * (vj - cv);
+            const double mixed = gi * rj + gj * ri;
+            const auto add = [&](Wrench& w, const EdgeSum& D1) {  // along the inward normal times the length
+                const double x = D1.all * p.x[i] + D1.along * du, y = D1.all * p.y[i] + D1.along * dv;
+                const double z = D1.all * (zc + zx * ui + zy * vi) + D1.along * (zx * du + zy * dv);
+                w.force.x -= D1.all * dv;
+                w.force.y += D1.all * du;
+                w.moment += Vec3{-z * du, -z * dv, x * du + y * dv};
             };
-            constexpr double t = 0.112701665379258311;  // Gauss, exact for quintics
-            at(t, 5.0 / 18.0);
-            at(0.5, 8.0 / 18.0);
-            at(1.0 - t, 5.0 / 18.0);
-            const Vec3 inward = du * e2 - dv * e1;  // times the length
-            const Vec3 arm_i = cross(corner + ui * f1 + vi * f2, inward), arm_ij = cross(du * f1 + dv * f2, inward);
-            const auto act_on = [&](Wrench& w, const EdgeSum& D1) {
-                w.force += D1.all * inward;
-                w.moment += D1.all * arm_i + D1.along * arm_ij;
-            };
-            act_on(o.by_V, by_V);
-            act_on(o.by_S, by_S);
-            act_on(o.by_Q, by_Q);
+            // g is linear along the edge, the squared distance r from the centroid r_i, r_j and less length2 t (1 - t)
+            add(by_V, {(gi + gj) / 2.0, (gi + 2.0 * gj) / 6.0});
+            add(by_S, {(gi * (gi + gj) + gj * gj) / 6.0, (gi * (gi + 2.0 * gj) + 3.0 * gj * gj) / 24.0});
+            add(by_Q, {(gi * ri + gj * rj) / 3.0 + mixed / 6.0 - length2 * (gi + gj) / 12.0,
+                       (gi * ri + mixed + 3.0 * gj * rj) / 12.0 - length2 * (2.0 * gi + 3.0 * gj) / 60.0});
         }
+        o.by_V = to_world(by_V);
+        o.by_S = to_world(by_S);
+        o.by_Q = to_world(by_Q);
         return o;
     }
 };

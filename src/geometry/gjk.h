@@ -55,7 +55,7 @@ struct ClosestPoints {
 namespace gjk_detail {
 
 struct Corner {
-    Vec3 w, a, b;  // difference b - a and the two points it comes from
+    Vec3 w;  // from a vertex of a to one of b
     double weight = 0.0;
     int at_a = 0, at_b = 0;
 };
@@ -70,15 +70,16 @@ struct Simplex {
         for (int i = 0; i < count; ++i) v += corner[i].weight * corner[i].w;
         return v;
     }
+    /// All of them, in their order, or up to three.
     GF_FN void keep(const int* which, const double* weight, int n)
     {
-        Corner kept[4];
-        for (int i = 0; i < n; ++i) {
-            kept[i] = corner[which[i]];
-            kept[i].weight = weight[i];
+        if (n < count) {
+            Corner kept[3];
+            for (int i = 0; i < n; ++i) kept[i] = corner[which[i]];
+            for (int i = 0; i < n; ++i) corner[i] = kept[i];
+            count = n;
         }
-        for (int i = 0; i < n; ++i) corner[i] = kept[i];
-        count = n;
+        for (int i = 0; i < n; ++i) corner[i].weight = weight[i];
     }
 };
 
@@ -189,9 +190,9 @@ GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, con
     constexpr int most_rounds = 64;        // a dozen is usual; round-off can make the last rounds cycle
     constexpr double no_progress = 1e-14;  // relative decrease of the squared distance that counts as progress
     gjk_detail::Simplex s;
+    const Vec3 centres = b.position - a.position;
     const auto between = [&](int i, int j) {
-        const Vec3 pa = a.at(i), pb = b.at(j);
-        return Corner{pb - pa, pa, pb, 1.0, i, j};
+        return Corner{centres + b.rotation * b.vertices[j] - a.rotation * a.vertices[i], 1.0, i, j};
     };
     const auto corner = [&](const Vec3& direction) { return between(a.support(direction), b.support(-direction)); };
     const auto known_vertex = [](int i, const PlacedCore& core) { return i >= 0 && i < core.count; };
@@ -224,8 +225,8 @@ GF_FN ClosestPoints closest_points(const PlacedCore& a, const PlacedCore& b, con
     ClosestPoints r;
     for (int i = 0; i < s.count; ++i) {
         const Corner& c = s.corner[i];
-        r.a += c.weight * c.a;
-        r.b += c.weight * c.b;
+        r.a += c.weight * a.at(c.at_a);
+        r.b += c.weight * b.at(c.at_b);
         corners.a[i] = static_cast<std::int16_t>(c.at_a);
         corners.b[i] = static_cast<std::int16_t>(c.at_b);
     }

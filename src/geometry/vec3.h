@@ -109,4 +109,13 @@ GF_FN Vec3 any_perpendicular(const Vec3& n)
     return normalized(cross(n, axis));
 }
 
+/// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017, J. Comput. Graph. Tech.
+/// 6).
+GF_FN void frame_of(const Vec3& n, Vec3& e1, Vec3& e2)
+{
+    const double sign = n.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (sign + n.z), b = n.x * n.y * a;
+    e1 = {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+    e2 = {b, sign + n.y * n.y * a, -n.y};
+}
+
 }  // namespace grainfrac
