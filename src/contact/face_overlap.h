@@ -17,20 +17,26 @@ constexpr double same_plane = 1e-20;
 /// Edges nearer to a window's edge than this, over the squared length of that edge, are the window's.
 constexpr double same_edge = 1e-9;
 
-/// Moments of the area of a polygon about its first corner, from the closed forms of its triangles there.
-struct AreaMoments {
-    double one = 0.0, u = 0.0, v = 0.0;   // int dA, u dA, v dA
-    double uu = 0.0, uv = 0.0, vv = 0.0;  //
-    double u_rr = 0.0, v_rr = 0.0;        // int u (u^2 + v^2) dA
+/// Moments of a polygon about its first corner, from the closed forms of its triangles there: of the area, and of the
+/// penetration from what it is at the corners, never negative: where it is round-off its moments still belong together.
+struct PolygonMoments {
+    double one = 0.0, u = 0.0, v = 0.0;            // int dA, u dA, v dA
+    double uu = 0.0, uv = 0.0, vv = 0.0;           // ...
+    double u_rr = 0.0, v_rr = 0.0;                 // int u (u^2 + v^2) dA
+    double g = 0.0, gg = 0.0, gu = 0.0, gv = 0.0;  // int g dA, g^2 dA, g u dA
+    double g_rr = 0.0;                             // int g (u^2 + v^2) dA
 
-    GF_FN explicit AreaMoments(const FlatPolygon& p)
+    GF_FN PolygonMoments(const FlatPolygon& p, const double* gap)
     {
         for (int i = 1; i + 1 < p.count; ++i) {
-            // corners 0, a, b: with f, g, h linear and F = f_a + f_b, int f g = A/12 (F G + sum f g) and
+            // corners 0, a, b: with f, g, h linear and F the sum of f at the corners,
+            // int f g = A/12 (F G + sum f g) and
             // int f g h = A/60 (F G H + F sum g h + G sum f h + H sum f g + 2 sum f g h)
             const double au = p.x[i] - p.x[0], av = p.y[i] - p.y[0], bu = p.x[i + 1] - p.x[0], bv = p.y[i + 1] - p.y[0];
+            const double ga = gap[i], gb = gap[i + 1], G = gap[0] + ga + gb;
             const double area2 = au * bv - bu * av, U = au + bu, V = av + bv;
             const double suu = au * au + bu * bu, suv = au * av + bu * bv, svv = av * av + bv * bv;
+            const double sgu = ga * au + gb * bu, sgv = ga * av + gb * bv;
             const double a2 = au * au + av * av, b2 = bu * bu + bv * bv, most = U * U + V * V + a2 + b2;
             one += area2;
             u += area2 * U;
@@ -40,6 +46,11 @@ struct AreaMoments {
             vv += area2 * (svv + V * V);
             u_rr += area2 * (U * most + 2.0 * (U * suu + V * suv + au * a2 + bu * b2));
             v_rr += area2 * (V * most + 2.0 * (U * suv + V * svv + av * a2 + bv * b2));
+            g += area2 * G;
+            gg += area2 * (gap[0] * gap[0] + ga * ga + gb * gb + G * G);
+            gu += area2 * (sgu + G * U);
+            gv += area2 * (sgv + G * V);
+            g_rr += area2 * (G * most + 2.0 * (U * sgu + V * sgv + ga * a2 + gb * b2));
         }
         one *= 1.0 / 2.0;
         u *= 1.0 / 6.0;
@@ -49,6 +60,11 @@ struct AreaMoments {
         vv *= 1.0 / 24.0;
         u_rr *= 1.0 / 120.0;
         v_rr *= 1.0 / 120.0;
+        g *= 1.0 / 6.0;
+        gg *= 1.0 / 24.0;
+        gu *= 1.0 / 24.0;
+        gv *= 1.0 / 24.0;
+        g_rr *= 1.0 / 120.0;
     }
 };
 
@@ -84,23 +100,21 @@ struct FacePlane {
     {
         Overlap o;
         const double x0 = p.x[0], y0 = p.y[0], zc = z0 + zx * x0 + zy * y0;
-        const double g0 = clear - zc, gu = -zx, gv = -zy;
-        const AreaMoments m(p);
-        const double V = g0 * m.one + gu * m.u + gv * m.v;
-        const double Xu = g0 * m.u + gu * m.uu + gv * m.uv, Xv = g0 * m.v + gu * m.uv + gv * m.vv;
-        const double S = 0.5 * (g0 * V + gu * Xu + gv * Xv);
-        if (V <= 0.0 || S <= 0.0) return o;
-        const double m_rr = m.uu + m.vv, cu = Xu / V, cv = Xv / V, c2 = cu * cu + cv * cv;
-        o.m.V = V;
-        o.m.S = S;
-        o.m.Q = larger(0.0, g0 * m_rr + gu * m.u_rr + gv * m.v_rr - V * c2);
+        double gap[FlatPolygon::room];
+        for (int i = 0; i < p.count; ++i) gap[i] = larger(0.0, clear - z0 - zx * p.x[i] - zy * p.y[i]);
+        const PolygonMoments m(p, gap);
+        if (m.g <= 0.0 || m.gg <= 0.0) return o;
+        const double m_rr = m.uu + m.vv, cu = m.gu / m.g, cv = m.gv / m.g, c2 = cu * cu + cv * cv;
+        o.m.V = m.g;
+        o.m.S = 0.5 * m.gg;
+        o.m.Q = larger(0.0, m.g_rr - m.g * c2);
 
         // int D dA, u D dA and v D dA; the push is beta/(beta . N)
         const auto act = [&](double D, double Du, double Dv) {
-            const Vec3 push{gu, gv, 1.0};
+            const Vec3 push{-zx, -zy, 1.0};
             return Wrench{D * push, cross({D * x0 + Du, D * y0 + Dv, D * zc + zx * Du + zy * Dv}, push)};
         };
-        Wrench by_V = act(m.one, m.u, m.v), by_S = act(V, Xu, Xv);
+        Wrench by_V = act(m.one, m.u, m.v), by_S = act(m.g, m.gu, m.gv);
         Wrench by_Q =
             act(m_rr - 2.0 * (cu * m.u + cv * m.v) + c2 * m.one, m.u_rr - 2.0 * (cu * m.uu + cv * m.uv) + c2 * m.u,
                 m.v_rr - 2.0 * (cu * m.uv + cv * m.vv) + c2 * m.v);
@@ -109,7 +123,7 @@ struct FacePlane {
             if (!p.moving[i]) continue;
             const int j = i + 1 < p.count ? i + 1 : 0;
             const double ui = p.x[i] - x0, vi = p.y[i] - y0, uj = p.x[j] - x0, vj = p.y[j] - y0;
-            const double gi = larger(0.0, g0 + gu * ui + gv * vi), gj = larger(0.0, g0 + gu * uj + gv * vj);
+            const double gi = gap[i], gj = gap[j];
             const double du = uj - ui, dv = vj - vi, length2 = du * du + dv * dv;
             const double ri = (ui - cu) * (ui - cu) + (vi - cv) * (vi - cv);
             const double rj = (uj - cu) * (uj - cu) + (vj - cv) * (vj - cv);

@@ -3,6 +3,7 @@
 
 #include "contact/manifold.h"
 #include "gpu/parallel.h"
+#include "model/lanes.h"
 #include "model/views.h"
 
 namespace grainfrac {
@@ -43,19 +44,39 @@ struct FindContacts {
 
     GF_FN void operator()(int pair) const
     {
-        if (!thorough && travel < apart_until[pair]) return;
-        if (suppressed(pair)) {
-            if (found[pair] == held_by_bonds) return;
+        if (!pass_over(pair)) look(pair);
+    }
+
+    /// Host: those that are not passed over together, in code for the vector unit of this processor.
+    void range(int begin, int end) const
+    {
+        int waiting[lanes], n = 0;
+        const auto look_at = [this, &waiting](int k) { look(waiting[k]); };
+        for (int pair = begin; pair < end; ++pair) {
+            if (pass_over(pair)) continue;
+            waiting[n++] = pair;
+            if (n == lanes) {
+                for_lanes(n, look_at);
+                n = 0;
+            }
+        }
+        for_lanes(n, look_at);
+    }
+
+    /// Apart for certain, or held by bonds, which is noted.
+    GF_FN bool pass_over(int pair) const
+    {
+        if (!thorough && travel < apart_until[pair]) return true;
+        if (!suppressed(pair)) return false;
+        if (found[pair] != held_by_bonds) {
             point[pair] = ContactPoint{};
             point[pair].depth = found[pair] = held_by_bonds;
             apart_until[pair] = 0.0;
-            return;
         }
-        look(pair);
+        return true;
     }
 
-    /// By itself, so that passing over a pair costs no more than asking.
-    GF_OUT_OF_LINE void look(int pair) const
+    GF_FN void look(int pair) const
     {
         const int i = a[pair], j = b[pair], shape_i = shape[i], shape_j = shape[j];
         const double centres2 = norm2(position[j] - position[i]);
