@@ -146,6 +146,39 @@ Slope slope_of(Assembly& a, double h)
 
 }  // namespace
 
+// Over either plane a penetration is at most g_p, so U <= (faces + A_ref) g_p^2/2; where it is round-off too, on faces
+// and edges that are parallel but for round-off, anyhow turned in space.
+TEST_CASE("manifold: no more energy and force than the depth allows, down to a penetration of round-off")
+{
+    int draw = 11;
+    const double rho = 0.05, face = (1 - 2 * rho) * (1 - 2 * rho), A_ref = face / 4;
+    double most_energy = 0.0, most_force = 0.0;
+    int touching = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Quat all = from_rotation_vector(3.0 * random_vector(draw));
+        const double depth = std::pow(10.0, -3 - 10 * std::fabs(random_vector(draw).x));  // 1e-3 to 1e-13
+        const double slide = 1.2 * random_vector(draw).x, roll = i % 4 == 0 ? 0.25 * std::numbers::pi : 0.0;
+        Assembly a = cubes({{0, 0, 0}, {3, slide, i % 3 == 0 ? 0.0 : slide}});
+        turn(a.state, 1, from_rotation_vector({0, 0, roll}));
+        const double reach = roll > 0.0 ? (0.5 - rho) * std::sqrt(2.0) : 0.5 - rho;
+        shift(a.state, 1, {0.5 - rho + reach + 2 * rho - depth - 3, 0, 0});
+        for (int k = 0; k < 2; ++k) {
+            const Vec3 x = a.state.bodies.position[k];
+            turn(a.state, k, all);
+            shift(a.state, k, rotate(all, x) - x);
+        }
+        const ContactPoint c = between(a, 0, 1);
+        if (c.overlap_energy <= 0.0) continue;
+        ++touching;
+        CHECK(c.depth < 2 * rho);
+        most_energy = std::max(most_energy, c.overlap_energy / (0.5 * (face + A_ref) * c.depth * c.depth));
+        most_force = std::max(most_force, c.overlap_force / ((face + A_ref) * c.depth));
+    }
+    CHECK(touching > 1500);
+    CHECK(most_energy <= 1.0);
+    CHECK(most_force <= 2.0);
+}
+
 TEST_CASE("forces and couples of a manifold are the slope of its potential: faces, edges, corners, rods")
 {
     // differences leave U's range of smoothness in some draws (a corner that passes an edge): most must agree closely
