@@ -34,13 +34,13 @@ GF_FN void rotate_freely(const Vec3& inverse_inertia, double dt, Vec3& L, Quat& 
         const int e = axis[k], f = (e + 1) % 3, g = (e + 2) % 3;
         const double angle = part[k] * dt * L[e] * inverse_inertia[e];
         if (angle == 0.0) continue;
-        const double c = std::cos(angle), s = std::sin(angle);
+        const auto [s, c] = sine_cosine(angle);
         const double Lf = L[f], Lg = L[g];
         L[f] = c * Lf + s * Lg;  // L <- Rot(e, -angle) L
         L[g] = c * Lg - s * Lf;
-        const double ch = std::cos(0.5 * angle), sh = std::sin(0.5 * angle);
-        Quat turn{ch, 0.0, 0.0, 0.0};
-        (e == 0 ? turn.x : (e == 1 ? turn.y : turn.z)) = sh;
+        const SineCosine half = sine_cosine(0.5 * angle);
+        Quat turn{half.cosine, 0.0, 0.0, 0.0};
+        (e == 0 ? turn.x : (e == 1 ? turn.y : turn.z)) = half.sine;
         q = q * turn;
     }
     q = normalized(q);
