@@ -22,6 +22,7 @@
 #include "generate/microstructure.h"
 #include "generate/packings.h"
 #include "model/validate.h"
+#include "model/views.h"
 #include "motion/servo.h"
 #include "motion/step.h"
 
@@ -259,8 +260,9 @@ double unbalanced_force_ratio(const State& state)
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (state.bodies.inverse_mass[i] > 0.0) most = std::max(most, norm(state.bodies.force[i]));
     }
-    for (int s = 0; s < state.slots.size(); ++s) {
-        const double f = norm(state.slots.force[s]);
+    const SlotOf slots = slot_of(state, Device::cpu);
+    for (int i = 0; i < state.interactions(); ++i) {
+        const double f = slots(i) >= 0 ? norm(state.slots.force[slots(i)]) : 0.0;
         if (f > 0.0) {
             sum += f;
             ++acting;

@@ -83,6 +83,7 @@ void check_lengths(const Archive& archive, State& state)
     check("corners", state.corners);
     check("parallels", state.parallels);
     check("sphere_bonds", state.sphere_bonds);
+    check("pairs", state.pairs);
     check("contacts", state.contacts);
 }
 
@@ -176,8 +177,8 @@ std::int64_t step_of(const fs::path& path)
 
 void transfer(Archive& archive, const std::string& name, State& state)
 {
-    auto& [bodies, interfaces, points, corners, parallels, sphere_bonds, contacts, slots, incidence, past_contacts,
-           travel, initial_energy, time, step, next_look] = state;
+    auto& [bodies, interfaces, points, corners, parallels, sphere_bonds, pairs, contacts, slots, incidence,
+           past_contacts, travel, initial_energy, time, step, next_look] = state;
     auto& [force, torque_a, torque_b, dyad_a, dyad_b, bond_acts] = slots;
     auto& [begin, entry] = incidence;
     const auto add = [&](const std::string& member, auto& value) { archive(name + "/" + member, value); };
@@ -188,6 +189,7 @@ void transfer(Archive& archive, const std::string& name, State& state)
     add("corners", corners);
     add("parallels", parallels);
     add("sphere_bonds", sphere_bonds);
+    add("pairs", pairs);
     add("contacts", contacts);
     add("slot_force", force);
     add("slot_torque_a", torque_a);

@@ -66,6 +66,18 @@ private:
     std::uint64_t hash_ = no_bytes_checksum;
 };
 
+/// What contacts remember in the order of their pairs, whenever they met; T{} for pairs without one.
+template <class T>
+Buffer<T> of_pairs(const State& state, const Buffer<T>& values)
+{
+    Buffer<T> listed;
+    listed.resize(state.pairs.size());
+    for (int i = 0; i < state.pairs.size(); ++i) {
+        if (const int contact = state.pairs.contact[i]; contact >= 0) listed.at(i) = values[contact];
+    }
+    return listed;
+}
+
 }  // namespace
 
 std::string why_not_valid(const Model& model, const State& state)
@@ -74,6 +86,12 @@ std::string why_not_valid(const Model& model, const State& state)
     if (auto why = bonds_problem("interface", state.interfaces, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("sphere bond", state.sphere_bonds, state.bodies.size()); !why.empty()) return why;
+    const Contacts& c = state.contacts;
+    for (int i = 0; i < c.size(); ++i) {
+        const int pair = c.pair[i];
+        if (pair < 0 || pair >= state.pairs.size() || state.pairs.contact[pair] != i)
+            return fmt::format("contact {}: is not that of its pair", i);
+    }
     for (int q = 0; q < state.points.size(); ++q) {
         if (!(state.points.damage[q] >= 0.0 && state.points.damage[q] <= 1.0))
             return fmt::format("interface point {}: damage out of [0, 1]", q);
@@ -93,8 +111,8 @@ std::uint64_t state_hash(const State& state)
     h.add(state.parallels.force);
     h.add(state.sphere_bonds.shear_force);
     h.add(state.sphere_bonds.cause);
-    h.add(state.contacts.shear_force);
-    h.add(state.contacts.max_overlap);
+    h.add(of_pairs(state, state.contacts.shear_force));
+    h.add(of_pairs(state, state.contacts.max_overlap));
     return h.value();
 }
 

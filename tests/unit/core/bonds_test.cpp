@@ -348,7 +348,7 @@ TEST_CASE("a sheared face that retires hands over to contact: no jump of the for
             work -= 0.5 * dt * 0.01 * (now.y + last.y);
             largest = std::max(largest, norm(now));
             if (a.state.interfaces.retired[0] != 0) jump = std::max(jump, norm(now - last));
-            handed_over = handed_over || a.state.contacts.active[0] == 1;
+            handed_over = handed_over || (a.state.contacts.size() > 0 && a.state.contacts.active[0] == 1);
             last = now;
         }
         const Ledger e = energy_ledger(a.model, a.state);

@@ -86,8 +86,10 @@ inline void add_contact(State& state, int a, int b)
     Contacts& contacts = state.contacts;
     const int i = contacts.size();
     contacts.for_each_array([&](const char*, auto& array) { array.resize(i + 1); });
-    contacts.a.host()[i] = a;
-    contacts.b.host()[i] = b;
+    state.pairs.for_each_array([&](const char*, auto& array) { array.resize(i + 1); });
+    state.pairs.a.host()[i] = contacts.a.host()[i] = a;
+    state.pairs.b.host()[i] = contacts.b.host()[i] = b;
+    state.pairs.contact.host()[i] = contacts.pair.host()[i] = i;
     contacts.active.host()[i] = 1;
     contacts.normal_force.host()[i] = 25.0;
     contacts.point.host()[i] = {{0, -1, 0}, {0, -side, 0}, 1e-15, 0.0, 1e-22, 1e-8, 0.0, 1e-7};
