@@ -21,6 +21,7 @@
 #include "experiment/walls.h"
 #include "generate/microstructure.h"
 #include "generate/packings.h"
+#include "generate/spheres.h"
 #include "model/validate.h"
 #include "model/views.h"
 #include "motion/servo.h"
@@ -185,6 +186,7 @@ Built build(const Case& c, Device device)
         throw std::logic_error("built an impossible state: " + why);
     }
     check_nothing_overlaps(c, model, state);
+    drop_unused(model, state.sphere_bonds);
     return built;
 }
 

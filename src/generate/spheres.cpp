@@ -110,4 +110,19 @@ void add_sphere_bond(Model& model, State& state, const SpherePair& pair)
     p.failure_time.at(n) = -1.0;
 }
 
+void drop_unused(const Model& model, SphereBonds& bonds)
+{
+    bool total = false, incremental = false, damped = false;
+    for (const SphereBondLaw& law : model.sphere_bond_laws.host()) {
+        (law.incremental ? incremental : total) = true;
+        damped = damped || law.damping > 0.0;
+    }
+    const auto keep = [](bool needed, auto&... arrays) {
+        if (!needed) ((arrays = {}), ...);
+    };
+    keep(total, bonds.axis_a, bonds.turn);
+    keep(incremental, bonds.shear_force, bonds.moment, bonds.twist, bonds.normal);
+    keep(damped, bonds.viscous_force, bonds.viscous_moment);
+}
+
 }  // namespace grainfrac

@@ -54,6 +54,7 @@ struct State {
     Bodies bodies;
     InterfaceBonds interfaces;
     InterfacePoints points;
+    PointHistories histories;
     InterfaceCorners corners;
     ParallelBonds parallels;
     SphereBonds sphere_bonds;

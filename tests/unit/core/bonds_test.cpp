@@ -151,9 +151,11 @@ TEST_CASE("cohesive face: peak loads, and bending between elastic limit and rigi
         double most = 0, shift_now = 0;
         for (int i = 1; i <= 1500; ++i) {
             const double t = until * i / 1500;
-            const InterfacePoints before = a.state.points;
+            const PointHistories before = a.state.histories;
+            const Buffer<std::int32_t> history = a.state.interfaces.history;
             const auto axial = [&](double shift_by) {
-                a.state.points = before;
+                a.state.histories = before;
+                a.state.interfaces.history = history;
                 move_about_face(a, {shift_by, 0, 0}, {0, 0, t});
                 return on_second(a).force.x;
             };

@@ -66,6 +66,7 @@ inline void add_interface(State& state, const SharedFace& face, int a, int b)
     bonds.normal_stiffness.host()[i] = 4e14;
     bonds.shear_stiffness.host()[i] = 2e14;
     bonds.failure_time.host()[i] = bonds.first_damage_time.host()[i] = -1.0;
+    bonds.history.host()[i] = no_history::none;
     for (const Vec3& corner : face.polygon) {
         const Vec3 on_a = rotate_back(bodies.orientation[a], corner - bodies.position[a]);
         const Vec3 on_b = rotate_back(bodies.orientation[b], corner - bodies.position[b]);

@@ -55,6 +55,7 @@ bool equal_states(State& a, State& b)
     compare(a.bodies, b.bodies);
     compare(a.interfaces, b.interfaces);
     compare(a.points, b.points);
+    compare(a.histories, b.histories);
     compare(a.corners, b.corners);
     compare(a.parallels, b.parallels);
     compare(a.pairs, b.pairs);
@@ -380,6 +381,7 @@ TEST_CASE("a checkpoint comes back bit for bit", "[output][checkpoint]")
     check_same(w.state.bodies, other.state.bodies);
     check_same(w.state.interfaces, other.state.interfaces);
     check_same(w.state.points, other.state.points);
+    check_same(w.state.histories, other.state.histories);
     check_same(w.state.corners, other.state.corners);
     check_same(w.state.parallels, other.state.parallels);
     check_same(w.state.pairs, other.state.pairs);
@@ -400,6 +402,7 @@ TEST_CASE("every array of the state is on the list that checkpoints walk", "[out
     check_all(Bodies{});
     check_all(InterfaceBonds{});
     check_all(InterfacePoints{});
+    check_all(PointHistories{});
     check_all(InterfaceCorners{});
     check_all(ParallelBonds{});
     check_all(SphereBonds{});
