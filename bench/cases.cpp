@@ -95,7 +95,7 @@ double traffic_of(const State& s)
     constexpr double kick = 292, drift = 232, stale = 52, gather = 64 + 8, per_body = 2 * kick + drift + stale + gather;
     constexpr double slot = 72 + 72 + 2 * 4;  // written, read once, two entries
     constexpr double interface = 12 + 96 + sizeof(FaceMoments) + 32 + 8 + 8 + 2 * 4 + 2 * 72 + 16 + 8 + slot;
-    constexpr double sphere_bond = 12 + 16 + 32 + 24 + 32 + 4 + 8 + 16 + 2 * 48 + slot;
+    constexpr double sphere_bond = 16 + 24 + 4 + 8 + 16 + 2 * 48 + slot;  // their kinds stay in the cache
     constexpr double candidate = 8 + 8 + 8 + 4 + 3 * 4, touching = 8 + 2 * 104 + 2 * 150 + slot;
     double sum = per_body * s.bodies.size() + interface * s.interfaces.size() + sphere_bond * s.sphere_bonds.size() +
                  candidate * s.pairs.size();

@@ -113,6 +113,20 @@ void check_bonds_exist(const Case& c, const Model& model, const State& state, co
     }
 }
 
+/// Arrays that grew one by one have room for as much again.
+void trim(State& state)
+{
+    const auto each = [](auto& arrays) {
+        arrays.for_each_array([](const char*, auto& array) { array.host().shrink_to_fit(); });
+    };
+    each(state.bodies);
+    each(state.interfaces);
+    each(state.points);
+    each(state.corners);
+    each(state.parallels);
+    each(state.sphere_bonds);
+}
+
 }  // namespace
 
 Built build(const Case& c, Device device)
@@ -186,7 +200,8 @@ Built build(const Case& c, Device device)
         throw std::logic_error("built an impossible state: " + why);
     }
     check_nothing_overlaps(c, model, state);
-    drop_unused(model, state.sphere_bonds);
+    settle(model, state.sphere_bonds);
+    trim(state);
     return built;
 }
 

@@ -228,21 +228,27 @@ struct ParallelBonds {
     }
 };
 
+/// What many bonds between spheres have in common: all of a lattice, down to round-off, that are made at once.
+struct SphereBondKind {
+    double share = 0.0;                                     ///< w: arm of a over the distance of the centres [-]
+    double length = 0.0;                                    ///< unstressed distance of the centres [m]
+    double radius = 0.0;                                    ///< R of the section, for stresses and pictures [m]
+    double normal_stiffness = 0.0;                          ///< K_n [N/m]
+    double shear_stiffness = 0.0;                           ///< K_s [N/m]
+    double bending_stiffness = 0.0, twist_stiffness = 0.0;  ///< K_b, K_t; 0 for spring-dashpots [N m]
+    Quat turn;  ///< total form: from the frame of b to that of a when the bond was made [-]
+};
+
 /// Bonds between spheres, from centre to centre; the interface of a fibre is an InterfaceBond. The law says which form:
 /// total (from where the spheres are now, Kuzkin and Asonov 2012) or incremental (with a history, spring-dashpot). What
-/// no law of the model needs may be empty (drop_unused, generate/spheres.h).
+/// no law of the model needs may be empty (settle, generate/spheres.h).
 struct SphereBonds {
-    Buffer<std::int32_t> a, b;                          ///< bodies
-    Buffer<std::int32_t> law;                           ///< into Model::sphere_bond_laws
-    Buffer<double> share;                               ///< w: arm of a over the distance of the centres [-]
-    Buffer<double> length;                              ///< unstressed distance of the centres [m]
-    Buffer<double> radius;                              ///< R of the section, for stresses and pictures [m]
-    Buffer<double> normal_stiffness;                    ///< K_n [N/m]
-    Buffer<double> shear_stiffness;                     ///< K_s [N/m]
-    Buffer<double> bending_stiffness, twist_stiffness;  ///< K_b, K_t; 0 for spring-dashpots [N m]
-    Buffer<double> strength_factor;                     ///< scatter: multiplies strengths [-]
+    Buffer<std::int32_t> a, b;       ///< bodies
+    Buffer<std::int32_t> law;        ///< into Model::sphere_bond_laws
+    Buffer<std::int32_t> kind;       ///< into kinds
+    Buffer<SphereBondKind> kinds;    ///< a table; of any length
+    Buffer<double> strength_factor;  ///< scatter: multiplies strengths [-]
     Buffer<Vec3> axis_a;  ///< total form: unit vector from a to b when the bond was made, in the frame of a [-]
-    Buffer<Quat> turn;    ///< total form: from the frame of b to that of a when the bond was made [-]
     // state
     Buffer<Vec3> shear_force;      ///< incremental form: on b, world frame [N]
     Buffer<Vec3> moment;           ///< incremental form: bending moment on b at the contact point, world frame [N m]
@@ -257,6 +263,7 @@ struct SphereBonds {
                                                  ///< [N], [N m]
 
     int size() const { return a.size(); }
+    const SphereBondKind& kind_of(int i) const { return kinds.host()[static_cast<std::size_t>(kind[i])]; }
 
     template <class Visit>
     void for_each_array(Visit&& visit)
@@ -264,16 +271,10 @@ struct SphereBonds {
         visit("a", a);
         visit("b", b);
         visit("law", law);
-        visit("share", share);
-        visit("length", length);
-        visit("radius", radius);
-        visit("normal_stiffness", normal_stiffness);
-        visit("shear_stiffness", shear_stiffness);
-        visit("bending_stiffness", bending_stiffness);
-        visit("twist_stiffness", twist_stiffness);
+        visit("kind", kind);
+        visit("kinds", kinds);
         visit("strength_factor", strength_factor);
         visit("axis_a", axis_a);
-        visit("turn", turn);
         visit("shear_force", shear_force);
         visit("moment", moment);
         visit("twist", twist);

@@ -122,9 +122,10 @@ void add_sphere_bonds(const Model& model, const State& state, Stiffness& s)
         BondGeometry g;
         g.length = norm(branch);
         g.e = branch / g.length;
-        g.rest = p.length[i];
-        g.share = p.share[i];
-        const BondSprings k{p.normal_stiffness[i], p.shear_stiffness[i], p.bending_stiffness[i], p.twist_stiffness[i]};
+        const SphereBondKind& kind = p.kind_of(i);
+        g.rest = kind.length;
+        g.share = kind.share;
+        const BondSprings k{kind.normal_stiffness, kind.shear_stiffness, kind.bending_stiffness, kind.twist_stiffness};
         const BondMasses m(g, b.inverse_mass[bodies[0]], b.inverse_mass[bodies[1]], b.inverse_inertia[bodies[0]].x,
                            b.inverse_inertia[bodies[1]].x);
         const double zeta = model.dashpots_active ? model.sphere_bond_laws[p.law[i]].damping : 0.0;
