@@ -78,9 +78,11 @@ double memory_of(State& s)
     s.bodies.for_each_array(add);
     s.interfaces.for_each_array(add);
     s.points.for_each_array(add);
+    s.histories.for_each_array(add);
     s.corners.for_each_array(add);
     s.parallels.for_each_array(add);
     s.sphere_bonds.for_each_array(add);
+    s.pairs.for_each_array(add);
     s.contacts.for_each_array(add);
     return sum + bytes(s.slots.force) + bytes(s.slots.torque_a) + bytes(s.slots.torque_b) + bytes(s.slots.bond_acts) +
            bytes(s.incidence.begin) + bytes(s.incidence.entry);
@@ -92,11 +94,11 @@ double traffic_of(const State& s)
 {
     constexpr double kick = 292, drift = 232, stale = 52, gather = 64 + 8, per_body = 2 * kick + drift + stale + gather;
     constexpr double slot = 72 + 72 + 2 * 4;  // written, read once, two entries
-    constexpr double interface = 12 + 96 + sizeof(FaceMoments) + 32 + 8 + 8 + 4 + 2 * 72 + 16 + 8 + slot;
-    constexpr double sphere_bond = 12 + 16 + 32 + 24 + 32 + 4 + 8 + 16 + 2 * 48 + slot;
-    constexpr double candidate = 8 + 8 + 8 + 4 + 4 + 4, touching = 8 + 2 * 104 + 2 * 150 + slot;
+    constexpr double interface = 12 + 96 + sizeof(FaceMoments) + 32 + 8 + 8 + 2 * 4 + 2 * 72 + 16 + 8 + slot;
+    constexpr double sphere_bond = 16 + 24 + 4 + 8 + 16 + 2 * 48 + slot;  // their kinds stay in the cache
+    constexpr double candidate = 8 + 8 + 8 + 4 + 3 * 4, touching = 8 + 2 * 104 + 2 * 150 + slot;
     double sum = per_body * s.bodies.size() + interface * s.interfaces.size() + sphere_bond * s.sphere_bonds.size() +
-                 candidate * s.contacts.size();
+                 candidate * s.pairs.size();
     for (int i = 0; i < s.contacts.size(); ++i) sum += s.contacts.active[i] == 1 ? touching : 0.0;
     return sum;
 }

@@ -26,7 +26,7 @@ void run(benchmark::State& state, Kind kind, int bodies, int threads, const Time
     state.counters["bodies"] = l.bodies;
     state.counters["bonds"] = l.bonds;
     state.counters["touching"] = l.touching;
-    state.counters["candidates"] = l.built.state.contacts.size();
+    state.counters["candidates"] = l.built.state.pairs.size();
     state.counters["rebuilds/step"] = static_cast<double>(l.rebuilds) / l.watched;
     state.counters["B/step"] = l.traffic;
     state.counters["B/body"] = l.memory / l.bodies;

@@ -92,7 +92,7 @@ int check_command(const Options& o)
         "\n# grains {}, spheres {}, wall bodies {}, interfaces {} with {} points, parallel bonds {}, sphere bonds {}, "
         "candidate contacts {}\n",
         n.grains, n.spheres, n.walls, b.state.interfaces.size(), b.state.points.size(), b.state.parallels.size(),
-        b.state.sphere_bonds.size(), b.state.contacts.size());
+        b.state.sphere_bonds.size(), b.state.pairs.size());
     fmt::print("# mean grain spacing {:.4g} m, mass {:.6g} kg\n", b.model.nominal_length,
                total_momentum(b.model, b.state).mass);
     fmt::print("# time step {:.4g} s; stability limit {:.4g} s, set by {}\n", s.dt, s.critical, s.limiter);

@@ -40,7 +40,7 @@ json counts(const Built& b)
             {"parallel_bonds", b.state.parallels.size()},
             {"sphere_bonds", b.state.sphere_bonds.size()},
             {"bonds", b.state.bond_slots()},
-            {"contact_pairs", b.state.contacts.size()}};
+            {"contact_pairs", b.state.pairs.size()}};
 }
 
 const char* kind_name(int mode, int cause)

@@ -17,7 +17,8 @@ struct ContactForces {
     View<const Law> laws;
     double dt;
     int first_slot;
-    View<const std::int32_t> a, b, law, bond_slot, bond_count;
+    View<const std::int32_t> pair, a, b, law;
+    View<const std::int32_t> bond_slot, bond_count;  // of pairs
     View<const ContactPoint> point;
     View<const std::int32_t> found;
     View<std::int32_t> active;
@@ -62,8 +63,9 @@ struct ContactForces {
     /// again.
     GF_FN Vec3 inherited_force(int i) const
     {
+        const int first = bond_slot[pair[i]], end = first + bond_count[pair[i]];
         Vec3 f;
-        for (int s = bond_slot[i]; s < bond_slot[i] + bond_count[i]; ++s) f -= slot.force[s];
+        for (int s = first; s < end; ++s) f -= slot.force[s];
         return f;
     }
 
@@ -177,16 +179,18 @@ struct ContactForces {
 ContactForces<LinearContact> kernel(const Model& model, State& state, double dt, Device d)
 {
     Contacts& c = state.contacts;
+    const CandidatePairs& p = state.pairs;
     return {motion_view(state.bodies, d),
             slots_view(state.slots, d),
             model.contact_laws.read(d),
             dt,
             state.bond_slots(),
+            c.pair.read(d),
             c.a.read(d),
             c.b.read(d),
             c.law.read(d),
-            c.bond_slot.read(d),
-            c.bond_count.read(d),
+            p.bond_slot.read(d),
+            p.bond_count.read(d),
             c.point.read(d),
             c.found.read(d),
             c.active.write(d),

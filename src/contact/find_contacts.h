@@ -9,7 +9,8 @@
 
 namespace grainfrac {
 
-/// Fill Contacts::point at the present positions; pairs whose bonds still act get none.
+/// Fill Contacts::point at the present positions; pairs that touch for the first time get a contact, those whose bonds
+/// still act none.
 void find_contacts(const Model& model, State& state);
 /// The same within a step: pairs that were too far apart to have met since, as State::travel tells, are not looked at.
 void follow_contacts(const Model& model, State& state);

@@ -4,6 +4,7 @@
 #include "contact/gather.h"
 #include "geometry/near_boxes.h"
 #include "gpu/parallel.h"
+#include "model/rearrange.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,65 @@ std::vector<BondedPair> bonded_pairs(const State& state)
     return found;
 }
 
+/// The neighbour list of now, without contacts.
+CandidatePairs candidates(const Model& model, const State& state)
+{
+    CandidatePairs fresh;
+    const Bodies& bodies = state.bodies;
+    const std::vector<BondedPair> bonded = bonded_pairs(state);
+    const auto near = overlapping_boxes(body_boxes(model, state));
+    for (Buffer<std::int32_t>* array : {&fresh.a, &fresh.b, &fresh.law, &fresh.bond_slot, &fresh.bond_count})
+        array->host().reserve(near.size());
+    std::size_t at_bond = 0;
+    for (const auto& [a, b] : near) {
+        if (bodies.inverse_mass[a] == 0.0 && bodies.inverse_mass[b] == 0.0) continue;
+        const std::pair<int, int> pair{a, b};
+        while (at_bond < bonded.size() && bonded[at_bond].bodies < pair) ++at_bond;
+        const bool has_bond = at_bond < bonded.size() && bonded[at_bond].bodies == pair;
+        fresh.a.host().push_back(a);
+        fresh.b.host().push_back(b);
+        fresh.law.host().push_back(
+            model.contact_law_of[entry_of_pair(bodies.group[a], bodies.group[b], model.groups.size())]);
+        fresh.bond_slot.host().push_back(has_bond ? bonded[at_bond].slot : 0);
+        fresh.bond_count.host().push_back(has_bond ? bonded[at_bond].count : 0);
+    }
+    const int n = fresh.size();
+    fresh.apart_until.resize(n);
+    fresh.corners.resize(n);
+    fresh.contact.resize(n, no_contact::apart);
+    return fresh;
+}
+
+void book(const Contacts& c, int i, PastContacts& past)
+{
+    past.friction_work += c.friction_work[i];
+    past.viscous_work += c.viscous_work[i];
+    past.inserted_work += c.inserted_work[i];
+    past.hysteresis_work += c.hysteresis_work[i] + c.stored_energy[i];
+}
+
+/// What the pairs that stay keep; the energies of contacts that go are booked. Returns the contacts that stay, in the
+/// order of their pairs, which is that of their new indices.
+std::vector<int> take_over_pairs(State& state, CandidatePairs& fresh)
+{
+    const CandidatePairs& old = state.pairs;
+    std::vector<int> source;
+    int k = 0;
+    for (int o = 0; o < old.size(); ++o) {  // both lists are sorted: walk them together
+        const std::pair<int, int> pair{old.a[o], old.b[o]};
+        while (k < fresh.size() && std::pair<int, int>{fresh.a[k], fresh.b[k]} < pair) ++k;
+        const int contact = old.contact[o];
+        if (k == fresh.size() || std::pair<int, int>{fresh.a[k], fresh.b[k]} != pair) {
+            if (contact >= 0) book(state.contacts, contact, state.past_contacts);
+            continue;
+        }
+        fresh.corners.at(k) = old.corners[o];
+        fresh.contact.at(k) = contact >= 0 ? static_cast<int>(source.size()) : contact;
+        if (contact >= 0) source.push_back(contact);
+    }
+    return source;
+}
+
 struct StepTravel {
     View<const Vec3> velocity, angular_velocity;
     View<const std::int32_t> shape;
@@ -82,66 +142,25 @@ bool pairs_are_stale(const Model& model, State& state, double dt)
 
 void find_pairs(const Model& model, State& state)
 {
-    Contacts old = std::move(state.contacts);
-    const int old_slots = std::max(0, state.slots.size() - old.size());
-    Contacts fresh;
-    const Bodies& bodies = state.bodies;
-    const std::vector<BondedPair> bonded = bonded_pairs(state);
-    std::size_t at_bond = 0;
-    for (const auto& [a, b] : overlapping_boxes(body_boxes(model, state))) {
-        if (bodies.inverse_mass[a] == 0.0 && bodies.inverse_mass[b] == 0.0) continue;
-        const std::pair<int, int> pair{a, b};
-        while (at_bond < bonded.size() && bonded[at_bond].bodies < pair) ++at_bond;
-        const bool has_bond = at_bond < bonded.size() && bonded[at_bond].bodies == pair;
-        fresh.a.host().push_back(a);
-        fresh.b.host().push_back(b);
-        fresh.law.host().push_back(
-            model.contact_law_of[entry_of_pair(bodies.group[a], bodies.group[b], model.groups.size())]);
-        fresh.bond_slot.host().push_back(has_bond ? bonded[at_bond].slot : 0);
-        fresh.bond_count.host().push_back(has_bond ? bonded[at_bond].count : 0);
-    }
-    const int n = fresh.size();
-    fresh.point.resize(n);
-    fresh.apart_until.resize(n);
-    fresh.for_each_history([&](const char*, auto& array) { array.resize(n); });
-    for (double& s : fresh.stiffness_scale.host()) s = 1.0;
-
-    // both lists are sorted: walk them together, carry over what stays, book what goes
-    std::vector<std::pair<int, int>> kept;  // new, old
-    int k = 0;
-    PastContacts& past = state.past_contacts;
-    for (int o = 0; o < old.size(); ++o) {
-        const std::pair<int, int> pair{old.a[o], old.b[o]};
-        while (k < n && std::pair<int, int>{fresh.a[k], fresh.b[k]} < pair) ++k;
-        if (k < n && std::pair<int, int>{fresh.a[k], fresh.b[k]} == pair) {
-            kept.emplace_back(k, o);
-            fresh.point.host()[static_cast<std::size_t>(k)] = old.point[o];
-            continue;
+    CandidatePairs fresh = candidates(model, state);
+    const std::vector<int> source = take_over_pairs(state, fresh);
+    Contacts& c = state.contacts;
+    const int old_slots = std::max(0, state.slots.size() - c.size()), slots = state.bond_slots();
+    for (Buffer<Vec3>* slot : {&state.slots.force, &state.slots.torque_a, &state.slots.torque_b}) {
+        const std::vector<Vec3> before(slot->host().begin() + old_slots, slot->host().end());
+        slot->host().resize(static_cast<std::size_t>(slots));
+        slot->resize(slots + static_cast<int>(source.size()));
+        for (std::size_t k = 0; k < source.size(); ++k) {  // what is not in contact has nothing in its slot
+            if (c.active[source[k]] == 1)
+                slot->at(slots + static_cast<int>(k)) = before[static_cast<std::size_t>(source[k])];
         }
-        past.friction_work += old.friction_work[o];
-        past.viscous_work += old.viscous_work[o];
-        past.inserted_work += old.inserted_work[o];
-        past.hysteresis_work += old.hysteresis_work[o] + old.stored_energy[o];
     }
-    std::vector<void*> targets;
-    fresh.for_each_history([&](const char*, auto& array) { targets.push_back(&array); });
-    std::size_t at = 0;
-    old.for_each_history([&](const char*, auto& from) {
-        auto& to = *static_cast<std::remove_reference_t<decltype(from)>*>(targets[at++]);
-        for (const auto& [i, o] : kept) to.host()[static_cast<std::size_t>(i)] = from[o];
-    });
-    state.contacts = std::move(fresh);
+    c = gathered(c, source);
+    for (int i = 0; i < fresh.size(); ++i) {
+        if (fresh.contact[i] >= 0) c.pair.at(fresh.contact[i]) = i;
+    }
+    state.pairs = std::move(fresh);
     state.travel = 0.0;
-    std::vector<std::pair<int, int>> with_force;  // what is not in contact has nothing in its slot
-    for (const auto& [i, o] : kept) {
-        if (state.contacts.active[i] == 1) with_force.emplace_back(i, o);
-    }
-    for (Buffer<Vec3>* slots : {&state.slots.force, &state.slots.torque_a, &state.slots.torque_b}) {
-        const std::vector<Vec3> before(slots->host().begin() + old_slots, slots->host().end());
-        slots->host().resize(static_cast<std::size_t>(state.bond_slots()));
-        slots->resize(state.bond_slots() + n);
-        for (const auto& [i, o] : with_force) slots->at(state.bond_slots() + i) = before[static_cast<std::size_t>(o)];
-    }
     state.slots.dyad_a.resize(0);  // of the interactions that were
     state.slots.dyad_b.resize(0);
     build_incidence(state);

@@ -2,6 +2,7 @@
 #include "contact/gather.h"
 
 #include "gpu/parallel.h"
+#include "model/views.h"
 
 #include <vector>
 
@@ -12,8 +13,7 @@ namespace {
 struct GatherForces {
     static constexpr const char* name = "gather forces";
     View<const std::int32_t> begin, entry;
-    int first_contact;
-    View<const std::int32_t> active;  // of contacts
+    SlotOf slot_of;
     View<const Vec3> slot_force, slot_torque_a, slot_torque_b;
     View<const double> mass, inverse_mass;
     Vec3 gravity;
@@ -23,9 +23,10 @@ struct GatherForces {
     {
         Vec3 f, t;
         for (int k = begin[body]; k < begin[body + 1]; ++k) {
-            const int slot = entry[k] / 2;
-            if (slot >= first_contact && active[slot - first_contact] != 1) continue;  // most: nothing there
-            if (entry[k] % 2 == 0) {
+            const auto e = static_cast<unsigned>(entry[k]);  // halving it is one shift
+            const int slot = slot_of(static_cast<int>(e / 2));
+            if (slot < 0) continue;  // most pairs
+            if (e % 2 == 0) {
                 f -= slot_force[slot];
                 t += slot_torque_a[slot];
             } else {
@@ -45,8 +46,7 @@ GatherForces kernel(const Model& model, State& state, Device d)
     const Slots& s = state.slots;
     return {state.incidence.begin.read(d),
             state.incidence.entry.read(d),
-            state.bond_slots(),
-            state.contacts.active.read(d),
+            slot_of(state, d),
             s.force.read(d),
             s.torque_a.read(d),
             s.torque_b.read(d),
@@ -73,23 +73,23 @@ void build_incidence(State& state)
 {
     const int bodies = state.bodies.size();
     std::vector<std::int32_t> begin(static_cast<std::size_t>(bodies) + 1, 0);
-    const auto for_each_slot = [&](auto&& visit) {
-        std::int32_t slot = 0;
+    const auto for_each_interaction = [&](auto&& visit) {
+        std::int32_t next = 0;
         state.for_each_bond_kind([&](const auto& bonds, int) {
-            for (int i = 0; i < bonds.size(); ++i) visit(slot++, bonds.a[i], bonds.b[i]);
+            for (int i = 0; i < bonds.size(); ++i) visit(next++, bonds.a[i], bonds.b[i]);
         });
-        for (int i = 0; i < state.contacts.size(); ++i) visit(slot++, state.contacts.a[i], state.contacts.b[i]);
+        for (int i = 0; i < state.pairs.size(); ++i) visit(next++, state.pairs.a[i], state.pairs.b[i]);
     };
-    for_each_slot([&](std::int32_t, std::int32_t a, std::int32_t b) {
+    for_each_interaction([&](std::int32_t, std::int32_t a, std::int32_t b) {
         ++begin[static_cast<std::size_t>(a) + 1];
         ++begin[static_cast<std::size_t>(b) + 1];
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     std::vector<std::int32_t> entry(static_cast<std::size_t>(begin.back()));
-    std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
-    for_each_slot([&](std::int32_t slot, std::int32_t a, std::int32_t b) {
-        entry[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = 2 * slot;
-        entry[static_cast<std::size_t>(next[static_cast<std::size_t>(b)]++)] = 2 * slot + 1;
+    std::vector<std::int32_t> at(begin.begin(), begin.end() - 1);
+    for_each_interaction([&](std::int32_t interaction, std::int32_t a, std::int32_t b) {
+        entry[static_cast<std::size_t>(at[static_cast<std::size_t>(a)]++)] = 2 * interaction;
+        entry[static_cast<std::size_t>(at[static_cast<std::size_t>(b)]++)] = 2 * interaction + 1;
     });
     state.incidence.begin.host() = std::move(begin);
     state.incidence.entry.host() = std::move(entry);

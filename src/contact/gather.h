@@ -14,7 +14,7 @@ void gather_forces(const Model& model, State& state);
 /// The same for some bodies, on the host.
 void gather_forces(const Model& model, State& state, const std::vector<int>& bodies);
 
-/// Which slots touch which body; after every change of bonds or pairs.
+/// Which interactions act on which body; after every change of bonds or pairs.
 void build_incidence(State& state);
 
 }  // namespace grainfrac

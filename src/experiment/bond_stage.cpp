@@ -112,9 +112,10 @@ void add_bonds(State& state, State& fresh)
     state.interfaces.corner_begin.host() = std::move(corner_begin);
     state.points = merged(state.points, fresh.points, points);
     state.corners = merged(state.corners, fresh.corners, corners);
-    const auto add = [](auto& old, auto& made) { old = merged(old, made, order_by_pair(old, made)); };
-    add(state.parallels, fresh.parallels);
-    add(state.sphere_bonds, fresh.sphere_bonds);
+    const auto add = [](auto& old, auto& made) {
+        if (made.size() > 0) old = merged(old, made, order_by_pair(old, made));
+    };
+    add(state.parallels, fresh.parallels);  // of spheres none are made
 }
 
 /// Everything stands still, and contacts forget; what they held is booked as taken out.

@@ -21,7 +21,9 @@
 #include "experiment/walls.h"
 #include "generate/microstructure.h"
 #include "generate/packings.h"
+#include "generate/spheres.h"
 #include "model/validate.h"
+#include "model/views.h"
 #include "motion/servo.h"
 #include "motion/step.h"
 
@@ -111,6 +113,20 @@ void check_bonds_exist(const Case& c, const Model& model, const State& state, co
     }
 }
 
+/// Arrays that grew one by one have room for as much again.
+void trim(State& state)
+{
+    const auto each = [](auto& arrays) {
+        arrays.for_each_array([](const char*, auto& array) { array.host().shrink_to_fit(); });
+    };
+    each(state.bodies);
+    each(state.interfaces);
+    each(state.points);
+    each(state.corners);
+    each(state.parallels);
+    each(state.sphere_bonds);
+}
+
 }  // namespace
 
 Built build(const Case& c, Device device)
@@ -184,6 +200,8 @@ Built build(const Case& c, Device device)
         throw std::logic_error("built an impossible state: " + why);
     }
     check_nothing_overlaps(c, model, state);
+    settle(model, state.sphere_bonds);
+    trim(state);
     return built;
 }
 
@@ -259,8 +277,9 @@ double unbalanced_force_ratio(const State& state)
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (state.bodies.inverse_mass[i] > 0.0) most = std::max(most, norm(state.bodies.force[i]));
     }
-    for (int s = 0; s < state.slots.size(); ++s) {
-        const double f = norm(state.slots.force[s]);
+    const SlotOf slots = slot_of(state, Device::cpu);
+    for (int i = 0; i < state.interactions(); ++i) {
+        const double f = slots(i) >= 0 ? norm(state.slots.force[slots(i)]) : 0.0;
         if (f > 0.0) {
             sum += f;
             ++acting;

@@ -159,7 +159,8 @@ double bond_density(const State& state, const Window& window)
     const SphereBonds& p = state.sphere_bonds;
     for (int i = 0; i < p.size(); ++i) {
         const Vec3 middle = 0.5 * (state.bodies.position[p.a[i]] + state.bodies.position[p.b[i]]);
-        sum += window.weight(middle) * std::numbers::pi * p.radius[i] * p.radius[i] * p.length[i] * p.length[i];
+        const SphereBondKind& k = p.kind_of(i);
+        sum += window.weight(middle) * std::numbers::pi * k.radius * k.radius * k.length * k.length;
     }
     const InterfaceBonds& f = state.interfaces;
     for (int i = 0; i < f.size(); ++i) {
@@ -227,7 +228,7 @@ CalibrationSample::CalibrationSample(const Case& c, std::size_t calibration, Dev
     }
     if (packing_ == Packing::honeycomb) density_ = std::sqrt(3.0) * part.side;
     if (packing_ == Packing::hcp || packing_ == Packing::fcc) {
-        const double r = state.sphere_bonds.radius[0];  // K_n = k_n pi r^2 and E = K_n/d f
+        const double r = state.sphere_bonds.kind_of(0).radius;  // K_n = k_n pi r^2 and E = K_n/d f
         density_ = std::numbers::pi * r * r / case_.parts[0].diameter;
     }
     if (part.generator == "chain") spacing_ = *case_.parts[0].fibre.spacing;

@@ -78,8 +78,9 @@ PartBonds part_bonds(const Case& c, const Built& built, int part_a, int part_b)
         add_bonds(
             s, k, parts,
             [&](int i) {
-                area += std::numbers::pi * k.radius[i] * k.radius[i];
-                return std::pair(k.normal_stiffness[i], k.shear_stiffness[i]);
+                const SphereBondKind& kind = k.kind_of(i);
+                area += std::numbers::pi * kind.radius * kind.radius;
+                return std::pair(kind.normal_stiffness, kind.shear_stiffness);
             },
             sum);
         if (sum.number > 0) section = area / sum.number;

@@ -100,7 +100,7 @@ void PullOutPath::scale(const Model& model, State& state, double factor)
     state.travel += std::fabs(factor - 1.0) * farthest;
     // incremental bonds remember forces: in proportion too
     SphereBonds& p = state.sphere_bonds;
-    for (int k = 0; k < p.size(); ++k) {
+    for (int k = 0; k < p.shear_force.size(); ++k) {  // none where no law has a history
         p.shear_force.at(k) = factor * p.shear_force[k];
         p.moment.at(k) = factor * p.moment[k];
         p.twist.at(k) *= factor;

@@ -116,7 +116,7 @@ Instability find_instability(const Model& model, const State& state, const Ledge
             {limits.bound->body}};
     }
     if (const int pair = penetrating_pair(model, state); pair >= 0) {
-        const int a = state.contacts.a[pair], b = state.contacts.b[pair];
+        const int a = state.pairs.a[pair], b = state.pairs.b[pair];
         return {fmt::format("the cores of {} and {} penetrate; the contact is too soft or something moves too fast: "
                             "raise contacts.normal_stiffness or lower the speed",
                             name_of(model, state, a), name_of(model, state, b)),

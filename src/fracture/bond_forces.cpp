@@ -5,6 +5,8 @@
 #include "fracture/face_moments.h"
 #include "fracture/interface_frame.h"
 #include "gpu/parallel.h"
+#include "gpu/select.h"
+#include "model/point_history.h"
 #include "model/views.h"
 
 namespace grainfrac {
@@ -27,11 +29,11 @@ struct InterfaceForces {
     View<const Vec3> point_a, point_b, corner_a, corner_b;
     View<const double> weight;
 
-    View<std::int32_t> retired;
+    View<std::int32_t> history, retired;
     View<double> damage, stored_energy, fracture_work, friction_work, viscous_work, inserted_work, shear_share;
     View<double> first_damage_time, failure_time;
     View<Vec3> viscous_force, viscous_torque_a, viscous_torque_b;
-    View<double> point_damage, point_onset, point_failure;
+    View<double> point_damage, point_onset, point_failure;  // of faces with a history
     View<Vec2> point_slip;
 
     GF_FN InterfaceFrame frame(int i) const
@@ -93,6 +95,10 @@ struct InterfaceForces {
         double viscous = 0.5 * power_on_bodies(i);
         FaceAction s;
         if (first_damage_time[i] >= 0.0 || !whole_face(i, f, l, may_fail, c_n, c_s, s)) {
+            if (history[i] < 0) {  // it is evaluated again, once its points have one
+                history[i] = no_history::begins;
+                return;
+            }
             const bool fail_now = may_fail && by_face && damage[i] < 1.0 && face_fails(i, f, l);
             by_points(i, f, l, may_fail && !by_face, fail_now, c_n, c_s, s);
         }
@@ -178,14 +184,14 @@ struct InterfaceForces {
         const Vec3 relative_velocity = body.velocity[b[i]] - body.velocity[a[i]];
         double fractured = 0.0, slid = 0.0, sheared = 0.0, damaged = 0.0;
         double least_opening = 1e300, most_sliding2 = 0.0;
-        for (int q = point_begin[i]; q < point_begin[i + 1]; ++q) {
+        for (int q = point_begin[i], h = history[i]; q < point_begin[i + 1]; ++q, ++h) {
             const double w = weight[q];
             const Vec3 arm_a = f.rotation_a * point_a[q], arm_b = f.rotation_b * point_b[q];
             const Vec3 jump = f.between + arm_b - arm_a;
             const auto [d_n, d_1, d_2] = f.in_frame(jump);
             InterfacePointState p;
-            if (point_onset[q] > 0.0)
-                p = {point_damage[q], point_onset[q], point_failure[q], point_slip[q].x, point_slip[q].y};
+            if (point_onset[h] > 0.0)
+                p = {point_damage[h], point_onset[h], point_failure[h], point_slip[h].x, point_slip[h].y};
             const double onset_before = p.onset;
             // at the midpoint of both points: there a common rigid motion has no rate, whatever the jump
             const Vec3 middle_a = arm_a + 0.5 * jump, middle_b = arm_b - 0.5 * jump;
@@ -195,10 +201,10 @@ struct InterfaceForces {
             const InterfaceResponse r = l({d_n, d_1, d_2}, before, k_n, k_s, strength_factor[i], toughness_factor[i],
                                           may_start, fail_now, p, fracture_active, pressure[i]);
             if (p.onset > 0.0) {
-                point_damage[q] = p.damage;
-                point_onset[q] = p.onset;
-                point_failure[q] = p.failure;
-                point_slip[q] = {p.slip1, p.slip2};
+                point_damage[h] = p.damage;
+                point_onset[h] = p.onset;
+                point_failure[h] = p.failure;
+                point_slip[h] = {p.slip1, p.slip2};
                 if (onset_before == 0.0 && first_damage_time[i] < 0.0) first_damage_time[i] = time;
             }
             s.stored += w * r.stored;
@@ -243,11 +249,24 @@ struct InterfaceForces {
 
     GF_FN bool all_points_broken(int i) const
     {
-        for (int q = point_begin[i]; q < point_begin[i + 1]; ++q) {
-            if (point_damage[q] < 1.0) return false;
+        for (int h = history[i]; h < history[i] + point_begin[i + 1] - point_begin[i]; ++h) {
+            if (point_damage[h] < 1.0) return false;
         }
         return true;
     }
+};
+
+struct BeginsHistory {
+    View<const std::int32_t> history;
+    GF_FN bool operator()(int i) const { return history[i] == no_history::begins; }
+};
+
+/// Faces that have got a history.
+struct EvaluateAgain {
+    static constexpr const char* name = "interface forces again";
+    InterfaceForces forces;
+    View<const std::int32_t> list;
+    GF_FN void operator()(int i) const { forces(list[i]); }
 };
 
 /// Increments in the frame that turns with the bond; normal_old is the normal of the last evaluation.
@@ -344,7 +363,8 @@ struct ParallelForces {
 InterfaceForces interface_kernel(const Model& model, State& state, double dt, Device d)
 {
     InterfaceBonds& i = state.interfaces;
-    InterfacePoints& p = state.points;
+    const InterfacePoints& p = state.points;
+    PointHistories& h = state.histories;
     return {motion_view(state.bodies, d),
             slots_view(state.slots, d),
             model.interface_laws.read(d),
@@ -377,6 +397,7 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt, De
             state.corners.position_a.read(d),
             state.corners.position_b.read(d),
             p.weight.read(d),
+            i.history.write(d),
             i.retired.write(d),
             i.damage.write(d),
             i.stored_energy.write(d),
@@ -390,10 +411,10 @@ InterfaceForces interface_kernel(const Model& model, State& state, double dt, De
             i.viscous_force.write(d),
             i.viscous_torque_a.write(d),
             i.viscous_torque_b.write(d),
-            p.damage.write(d),
-            p.onset.write(d),
-            p.failure.write(d),
-            p.slip.write(d)};
+            h.damage.write(d),
+            h.onset.write(d),
+            h.failure.write(d),
+            h.slip.write(d)};
 }
 
 ParallelForces parallel_kernel(const Model& model, State& state, double dt, Device d)
@@ -430,12 +451,24 @@ ParallelForces parallel_kernel(const Model& model, State& state, double dt, Devi
             p.viscous_force.write(d)};
 }
 
+/// Histories for the faces that were found to need one, in the order of the faces.
+void begin_histories(const Model& model, State& state, double dt, Device d)
+{
+    const InterfaceBonds& f = state.interfaces;
+    const Buffer<std::int32_t> list = select(d, f.size(), BeginsHistory{f.history.read(d)});
+    if (list.empty()) return;
+    for (const std::int32_t i : list.host()) begin_history(state, i);
+    parallel_for(d, list.size(), EvaluateAgain{interface_kernel(model, state, dt, d), list.read(d)});
+}
+
 }  // namespace
 
 void bond_forces(const Model& model, State& state, double dt)
 {
-    if (state.interfaces.size() > 0)
+    if (state.interfaces.size() > 0) {
         parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt, model.device));
+        begin_histories(model, state, dt, model.device);
+    }
     if (state.parallels.size() > 0)
         parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt, model.device));
     if (state.sphere_bonds.size() > 0) sphere_bond_forces(model, state, dt);
@@ -445,6 +478,7 @@ void bond_forces(const Model& model, State& state, const std::vector<int>& inter
                  const std::vector<int>& parallels, const std::vector<int>& sphere_bonds)
 {
     serial_for(interfaces, interface_kernel(model, state, 0.0, Device::cpu));
+    begin_histories(model, state, 0.0, Device::cpu);
     serial_for(parallels, parallel_kernel(model, state, 0.0, Device::cpu));
     sphere_bond_forces(model, state, sphere_bonds);
 }
@@ -459,7 +493,7 @@ void start_bonds(const Model&, State& state)
         p.normal.host()[static_cast<std::size_t>(i)] = normalized(na + nb);
     }
     SphereBonds& s = state.sphere_bonds;
-    for (int i = 0; i < s.size(); ++i)
+    for (int i = 0; i < s.normal.size(); ++i)
         s.normal.at(i) = normalized(state.bodies.position[s.b[i]] - state.bodies.position[s.a[i]]);
 }
 

@@ -43,9 +43,9 @@ MostUsedBond most_used_bond(const Model& model, const State& state)
         if (!law.breakable || p.cause[i] != static_cast<int>(BondCause::whole)) continue;
         const int slot = state.first_sphere_slot() + i;
         const Vec3 branch = state.bodies.position[p.b[i]] - state.bodies.position[p.a[i]], e = normalized(branch);
-        const Vec3 F = s.force[slot], M = s.torque_b[slot] + cross((1.0 - p.share[i]) * branch, F);
+        const Vec3 F = s.force[slot], M = s.torque_b[slot] + cross((1.0 - p.kind_of(i).share) * branch, F);
         const double share = largest_share(most.share, [&](double strength) {
-            return law.broken(-F, -M, e, p.radius[i], strength * p.strength_factor[i]) != BondCause::whole;
+            return law.broken(-F, -M, e, p.kind_of(i).radius, strength * p.strength_factor[i]) != BondCause::whole;
         });
         if (share > most.share) most = {i, share};
     }

@@ -4,6 +4,7 @@
 #include "fracture/plane_tractions.h"
 #include "gpu/thread_pool.h"
 #include "model/grain_body.h"
+#include "model/views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,10 +65,12 @@ LoadedGrain loaded_grain(const Model& model, const State& state, int body)
     g.motion.angular_acceleration = angular_acceleration(b.inertia[body], w, turned(b.torque[body]));
     g.motion.body_force = turned(model.gravity);
 
+    const SlotOf slots = slot_of(state, Device::cpu);
     const int begin = state.incidence.begin[body], end = state.incidence.begin[body + 1];
     g.corners.reserve(static_cast<std::size_t>(end - begin));
     for (int k = begin; k < end; ++k) {
-        const int entry = state.incidence.entry[k], slot = entry / 2;
+        const int entry = state.incidence.entry[k], slot = slots(entry / 2);
+        if (slot < 0) continue;
         const bool is_a = entry % 2 == 0;
         const Vec3 force = turned(is_a ? -state.slots.force[slot] : state.slots.force[slot]);
         const Vec3 torque = turned(is_a ? state.slots.torque_a[slot] : state.slots.torque_b[slot]);
@@ -105,8 +108,8 @@ bool face_passes(const State& state, int body, const CleavageGate& gate)
     const Quat q = state.bodies.orientation[body];
     const double tension = gate.share * gate.tension_threshold, shear = gate.share * gate.shear_threshold;
     for (int k = state.incidence.begin[body]; k < state.incidence.begin[body + 1]; ++k) {
-        const int slot = state.incidence.entry[k] / 2;
-        if (slot >= f.size()) break;  // interfaces come first
+        const int slot = state.incidence.entry[k] / 2;  // of an interface
+        if (slot >= f.size()) break;                    // which come first
         const bool is_a = state.incidence.entry[k] % 2 == 0;
         const Vec3 force = rotate_back(q, is_a ? -state.slots.force[slot] : state.slots.force[slot]);
         const Vec3 torque = rotate_back(q, is_a ? state.slots.torque_a[slot] : state.slots.torque_b[slot]);
@@ -134,6 +137,7 @@ void on_the_host(const State& state)
         v->host();
     b.orientation.host();
     state.contacts.point.host();
+    state.pairs.contact.host();
 }
 
 bool passes(const State& state, int body, const Mat3& stress, const CleavageGate& gate)

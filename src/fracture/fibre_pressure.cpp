@@ -13,8 +13,8 @@ namespace {
 struct FibrePressures {
     static constexpr const char* name = "fibre pressures";
     View<const Vec3> position;
-    View<const std::int32_t> bond_a, bond_b, cause;
-    View<const double> bond_length, bond_stiffness;
+    View<const std::int32_t> bond_a, bond_b, cause, kind;
+    View<const SphereBondKind> kinds;
     View<const std::int32_t> before, after;
     View<const double> at_rest, contraction, section;
     View<double> pressure;
@@ -23,7 +23,8 @@ struct FibrePressures {
     GF_FN double pull(int bond) const
     {
         if (cause[bond] != static_cast<int>(BondCause::whole)) return 0.0;
-        return bond_stiffness[bond] * (norm(position[bond_b[bond]] - position[bond_a[bond]]) - bond_length[bond]);
+        const SphereBondKind& k = kinds[kind[bond]];
+        return k.normal_stiffness * (norm(position[bond_b[bond]] - position[bond_a[bond]]) - k.length);
     }
     GF_FN void operator()(int i) const
     {
@@ -55,11 +56,11 @@ void fibre_pressures(const Model& model, State& state)
     const Device d = model.device;
     InterfaceBonds& f = state.interfaces;
     const SphereBonds& p = state.sphere_bonds;
-    parallel_for(d, f.size(),
-                 FibrePressures{state.bodies.position.read(d), p.a.read(d), p.b.read(d), p.cause.read(d),
-                                p.length.read(d), p.normal_stiffness.read(d), f.bond_before.read(d),
-                                f.bond_after.read(d), f.pressure_at_rest.read(d), f.contraction.read(d),
-                                f.fibre_section.read(d), f.pressure.write(d)});
+    parallel_for(
+        d, f.size(),
+        FibrePressures{state.bodies.position.read(d), p.a.read(d), p.b.read(d), p.cause.read(d), p.kind.read(d),
+                       p.kinds.read(d), f.bond_before.read(d), f.bond_after.read(d), f.pressure_at_rest.read(d),
+                       f.contraction.read(d), f.fibre_section.read(d), f.pressure.write(d)});
 }
 
 }  // namespace grainfrac

@@ -2,6 +2,7 @@
 #include "fracture/grain_stress.h"
 
 #include "model/grain_body.h"
+#include "model/views.h"
 
 #include <stdexcept>
 
@@ -41,13 +42,14 @@ std::vector<Mat3> grain_stress(const Model& model, const State& state)
     const Slots& s = state.slots;
     if (s.size() > 0 && s.dyad_a.size() != s.size())
         throw std::logic_error("grain_stress: the last step kept no dyads");
+    const SlotOf slots = slot_of(state, Device::cpu);
     std::vector<Mat3> stress(static_cast<std::size_t>(state.bodies.size()));
     for (int i = 0; i < state.bodies.size(); ++i) {
         if (state.bodies.inverse_mass[i] == 0.0) continue;
         Mat3 sum;
         for (int k = state.incidence.begin[i]; k < state.incidence.begin[i + 1]; ++k) {
-            const int entry = state.incidence.entry[k];
-            sum = sum + (entry % 2 == 0 ? s.dyad_a[entry / 2] : s.dyad_b[entry / 2]);
+            const int entry = state.incidence.entry[k], slot = slots(entry / 2);
+            if (slot >= 0) sum = sum + (entry % 2 == 0 ? s.dyad_a[slot] : s.dyad_b[slot]);
         }
         sum = (1.0 / grain_volume(model, state, i)) * (sum - inertia_term(state.bodies, i));
         stress[static_cast<std::size_t>(i)] = 0.5 * (sum + transpose(sum));

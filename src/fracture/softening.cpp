@@ -2,6 +2,7 @@
 #include "fracture/softening.h"
 
 #include "fracture/interface_frame.h"
+#include "model/point_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +25,10 @@ void for_each_live_point(const State& state, int i, Visit&& visit)
     const InterfaceFrame frame(b.orientation[f.a[i]], b.orientation[f.b[i]], b.position[f.b[i]] - b.position[f.a[i]],
                                f.normal_a[i], f.normal_b[i], f.tangent_a[i], f.tangent_b[i]);
     for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
-        if (p.damage[q] >= 1.0) continue;
+        const InterfacePointState s = point_state(state, i, q);
+        if (s.damage >= 1.0) continue;
         const Vec3 jump = frame.between + frame.rotation_b * p.position_b[q] - frame.rotation_a * p.position_a[q];
-        visit(q, frame.in_frame(jump),
-              InterfacePointState{p.damage[q], p.onset[q], p.failure[q], p.slip[q].x, p.slip[q].y});
+        visit(q, frame.in_frame(jump), s);
     }
 }
 
@@ -143,10 +144,7 @@ void soften(const Model& model, State& state, const std::vector<int>& interfaces
             sheared += w * r.shear_share;
             released += 0.5 * w * (p.damage - was.damage) *
                         (k_n * open * open + k_s * (d.s1 * d.s1 + d.s2 * d.s2 - s1 * s1 - s2 * s2));
-            state.points.damage.at(q) = p.damage;
-            state.points.onset.at(q) = p.onset;
-            state.points.failure.at(q) = p.failure;
-            state.points.slip.at(q) = {p.slip1, p.slip2};
+            set_point_state(state, i, q, p);
         });
         f.fracture_work.at(i) += work;
         f.inserted_work.at(i) += work - released;
@@ -175,7 +173,7 @@ void Sliding::renew()
 void Sliding::set(bool soft)
 {
     InterfaceBonds& f = state_.interfaces;
-    InterfacePoints& p = state_.points;
+    const InterfacePoints& p = state_.points;
     const Bodies& b = state_.bodies;
     for (std::size_t k = 0; k < interfaces_.size(); ++k) {
         const int i = interfaces_[k];
@@ -186,15 +184,18 @@ void Sliding::set(bool soft)
         const double was = f.shear_stiffness[i];
         double is = stiffness_[k];
         for (int q = f.point_begin[i]; q < f.point_begin[i + 1]; ++q) {
-            if (f.retired[i] != 0 || p.damage[q] < 1.0) continue;
+            InterfacePointState point = point_state(state_, i, q);
+            if (f.retired[i] != 0 || point.damage < 1.0) continue;
             const InterfaceJump d =
                 frame.in_frame(frame.between + frame.rotation_b * p.position_b[q] - frame.rotation_a * p.position_a[q]);
-            const double s1 = d.s1 - p.slip[q].x, s2 = d.s2 - p.slip[q].y, length = std::sqrt(s1 * s1 + s2 * s2);
+            const double s1 = d.s1 - point.slip1, s2 = d.s2 - point.slip2, length = std::sqrt(s1 * s1 + s2 * s2);
             const double cap = law.friction_cap(std::fmax(0.0, -f.normal_stiffness[i] * d.n), f.pressure[i]);
             if (length == 0.0 || cap == 0.0) continue;
             if (soft) is = cap / (way_ * soft_springs);
             const double now = soft ? cap / is : was * length / is;
-            p.slip.at(q) = {d.s1 - now / length * s1, d.s2 - now / length * s2};
+            point.slip1 = d.s1 - now / length * s1;
+            point.slip2 = d.s2 - now / length * s2;
+            set_point_state(state_, i, q, point);
             f.friction_work.at(i) += 0.5 * p.weight[q] * (was * length * length - is * now * now);
         }
         f.shear_stiffness.at(i) = is;

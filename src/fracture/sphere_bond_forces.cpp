@@ -17,11 +17,10 @@ struct SphereBondForces {
     bool fracture_active, dashpots_active;
     int first_slot;
 
-    View<const std::int32_t> a, b, law;
-    View<const double> share, length, radius, normal_stiffness, shear_stiffness, bending_stiffness, twist_stiffness;
+    View<const std::int32_t> a, b, law, kind;
+    View<const SphereBondKind> kinds;
     View<const double> strength_factor;
     View<const Vec3> axis_a;
-    View<const Quat> turn;
 
     View<Vec3> shear_force, moment, normal;
     View<double> twist;
@@ -48,15 +47,16 @@ struct SphereBondForces {
         const int A = a[i], B = b[i];
         SphereBondReading<incremental, damped> x;
         x.branch = body.position[B] - body.position[A];
-        x.share = share[i];
-        x.rest = length[i];
-        x.k = {normal_stiffness[i], shear_stiffness[i], bending_stiffness[i], twist_stiffness[i]};
+        const SphereBondKind& k = kinds[kind[i]];
+        x.share = k.share;
+        x.rest = k.length;
+        x.k = {k.normal_stiffness, k.shear_stiffness, k.bending_stiffness, k.twist_stiffness};
         if constexpr (incremental) {
             x.history = {shear_force[i], moment[i], twist[i], normal[i]};
         } else {
             x.orientation_a = body.orientation[A];
             x.orientation_b = body.orientation[B];
-            x.turn = turn[i];
+            x.turn = k.turn;
             x.axis_a = axis_a[i];
         }
         if constexpr (incremental || damped) {
@@ -100,7 +100,7 @@ struct SphereBondForces {
         }
         if (!fracture_active || !l.strength.breakable) return;
         const BondCause broken =
-            l.strength.broken(-w.elastic_force, -w.elastic_moment, w.e, radius[i], strength_factor[i]);
+            l.strength.broken(-w.elastic_force, -w.elastic_moment, w.e, kinds[kind[i]].radius, strength_factor[i]);
         if (broken != BondCause::whole) {  // this force still acts in this step; the contact takes over in the next
             cause[i] = static_cast<int>(broken);
             slot.bond_acts[s] = 0;
@@ -176,16 +176,10 @@ SphereBondForces kernel(const Model& model, State& state, double dt, Device d)
             s.a.read(d),
             s.b.read(d),
             s.law.read(d),
-            s.share.read(d),
-            s.length.read(d),
-            s.radius.read(d),
-            s.normal_stiffness.read(d),
-            s.shear_stiffness.read(d),
-            s.bending_stiffness.read(d),
-            s.twist_stiffness.read(d),
+            s.kind.read(d),
+            s.kinds.read(d),
             s.strength_factor.read(d),
             s.axis_a.read(d),
-            s.turn.read(d),
             s.shear_force.write(d),
             s.moment.write(d),
             s.normal.write(d),

@@ -2,6 +2,7 @@
 #include "fracture/split_bonds.h"
 
 #include "fracture/face_moments.h"
+#include "model/point_history.h"
 #include "model/rearrange.h"
 
 #include <algorithm>
@@ -141,10 +142,12 @@ public:
         }
 
         std::vector<int> sources, source_points;  // of the pieces
+        std::vector<InterfacePointState> old_states;
         for (const Entry& e : fresh) {
             if (e.piece == nullptr) continue;
             sources.push_back(e.piece->source);
             source_points.insert(source_points.end(), e.piece->points.begin(), e.piece->points.end());
+            for (const int q : e.piece->points) old_states.push_back(point_state(state_, e.piece->source, q));
         }
         const InterfaceBonds old = gathered(f, sources);
         const InterfacePoints old_points = gathered(state_.points, source_points);
@@ -153,11 +156,13 @@ public:
         rearrange(state_.corners, corners);
         f.point_begin.host() = point_begin;
         f.corner_begin.host() = corner_begin;
+        keep_histories(places);
         int piece = 0, point = 0;
         for (std::size_t k = 0; k < fresh.size(); ++k) {
             const auto n = static_cast<std::size_t>(places[k]);
             if (fresh[k].piece != nullptr) {
-                fill(*fresh[k].piece, places[k], point_begin[n], corner_begin[n], old, piece++, old_points, point);
+                fill(*fresh[k].piece, places[k], point_begin[n], corner_begin[n], old, piece++, old_points, old_states,
+                     point);
                 point += static_cast<int>(fresh[k].piece->points.size());
             } else {
                 fresh[k].surface->interface = places[k];
@@ -168,6 +173,20 @@ public:
     }
 
 private:
+    /// In the order of the interfaces; those that are new begin without.
+    void keep_histories(const std::vector<int>& fresh)
+    {
+        InterfaceBonds& f = state_.interfaces;
+        for (const int n : fresh) f.history.at(n) = no_history::none;
+        std::vector<int> source;
+        for (int n = 0; n < f.size(); ++n) {
+            const int first = f.history[n];
+            if (first < 0) continue;
+            f.history.at(n) = static_cast<int>(source.size());
+            for (int k = 0; k < f.point_begin[n + 1] - f.point_begin[n]; ++k) source.push_back(first + k);
+        }
+        state_.histories = gathered(state_.histories, source);
+    }
     Placement old_place(int body) const
     {
         const auto found = before_.find(body);
@@ -190,7 +209,8 @@ private:
 
     /// Interface n from a piece: its share of what its source, old[i], held, everything in the frames of its bodies.
     void fill(const Piece& p, int n, int first_point, int first_corner, const InterfaceBonds& old, int i,
-              const InterfacePoints& old_points, int first_old_point)
+              const InterfacePoints& old_points, const std::vector<InterfacePointState>& old_states,
+              int first_old_point)
     {
         InterfaceBonds& f = state_.interfaces;
         const Bodies& b = state_.bodies;
@@ -217,10 +237,12 @@ private:
             const Vec3 xb = placement(b, p.b).to_body(from_b.to_space(old_points.position_b[source]));
             state_.points.position_a.at(q) = flipped ? xb : xa;
             state_.points.position_b.at(q) = flipped ? xa : xb;
-            // the jump and the normal turn round, the first tangent stays: only its component changes sign
-            if (flipped) state_.points.slip.at(q).x = -old_points.slip[source].x;
+            InterfacePointState point = old_states[static_cast<std::size_t>(source)];
             area += old_points.weight[source];
-            damaged += old_points.weight[source] * old_points.damage[source];
+            damaged += old_points.weight[source] * point.damage;
+            // the jump and the normal turn round, the first tangent stays: only its component changes sign
+            if (flipped) point.slip1 = -point.slip1;
+            if (old.history[i] >= 0) set_point_state(state_, n, q, point);
         }
         const double share = area / old.area[i];
         f.area.at(n) = area;
@@ -269,7 +291,7 @@ private:
             state_.points.position_a.at(q) = placement(b, s.a).to_body(s.points[k].position);
             state_.points.position_b.at(q) = placement(b, s.b).to_body(s.points[k].position);
             state_.points.weight.at(q) = s.points[k].weight;
-            if (!r.cohesive) state_.points.damage.at(q) = 1.0;
+            if (!r.cohesive) set_point_state(state_, n, q, {.damage = 1.0});
         }
         if (!r.cohesive) {  // a crack from the start, in the list for the results: contact acts in its place
             f.damage.at(n) = 1.0;
@@ -366,9 +388,7 @@ void load_surface(const Model& model, State& state, const CutSurface& s, const s
                   (r.normal_stiffness * d[0] * d[0] + r.shear_stiffness * (d[1] * d[1] + d[2] * d[2]));
         if (onset[k] <= 0.0) continue;
         const double mean = d[0] > 0.0 && open > 0.0 ? sum / open : onset[k];
-        state.points.onset.at(q) = onset[k];
-        state.points.failure.at(q) = onset[k] + 2.0 * law.fracture_energy(mix[k]) / mean;
-        state.points.slip.at(q) = {d[1], d[2]};
+        set_point_state(state, n, q, {0.0, onset[k], onset[k] + 2.0 * law.fracture_energy(mix[k]) / mean, d[1], d[2]});
     }
     f.stored_energy.at(n) = stored;
     f.inserted_work.at(n) = stored;

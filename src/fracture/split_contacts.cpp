@@ -13,11 +13,11 @@ std::vector<OldContact> take_contacts(State& state, const std::vector<Parting>& 
 {
     Contacts& c = state.contacts;
     std::vector<OldContact> old;
-    for (int i = 0; i < c.size(); ++i) {
+    state.for_each_contact([&](int i) {
         const bool concerned = std::any_of(partings.begin(), partings.end(), [&](const Parting& p) {
             return p.request.body == c.a[i] || p.request.body == c.b[i];
         });
-        if (!concerned || c.active[i] != 1) continue;
+        if (!concerned || c.active[i] != 1) return;
         old.push_back({c.a[i], c.b[i], c.normal_force[i] - c.viscous_force[i], c.shear_force[i]});
         state.past_contacts.inserted_work -= c.stored_energy[i];
         c.active.at(i) = 0;
@@ -26,7 +26,7 @@ std::vector<OldContact> take_contacts(State& state, const std::vector<Parting>& 
                                         &c.offset_overlap, &c.normal_force, &c.shear_stiffness, &c.twist_stiffness})
             history->at(i) = 0.0;
         c.stiffness_scale.at(i) = 1.0;
-    }
+    });
     return old;
 }
 
@@ -42,7 +42,7 @@ std::vector<int> give_contacts(const Model& model, State& state, const std::vect
         return list;
     };
     std::vector<std::pair<int, int>> pairs;  // sorted, as the list is
-    for (int i = 0; i < c.size(); ++i) pairs.emplace_back(c.a[i], c.b[i]);
+    for (int i = 0; i < state.pairs.size(); ++i) pairs.emplace_back(state.pairs.a[i], state.pairs.b[i]);
     std::vector<int> given;
     for (const OldContact& o : old) {
         struct Heir {
@@ -57,8 +57,8 @@ std::vector<int> give_contacts(const Model& model, State& state, const std::vect
                 const std::pair<int, int> pair = std::minmax(a, b);
                 const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
                 if (found == pairs.end() || *found != pair) continue;
-                const int i = static_cast<int>(found - pairs.begin());
-                if (c.point[i].overlap_energy <= 0.0) continue;
+                const int i = state.pairs.contact[static_cast<int>(found - pairs.begin())];
+                if (i < 0 || c.point[i].overlap_energy <= 0.0) continue;
                 const double own = model.contact_laws[c.law[i]].area_stiffness * c.point[i].overlap_force;
                 heirs.push_back({i, own, a > b});
                 sum += own;

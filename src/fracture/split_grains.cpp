@@ -126,9 +126,9 @@ void restore_slots(State& state, const OldSlots& old, const std::vector<int>& in
     for (int i = 0; i < state.sphere_bonds.size(); ++i) put(slot++, first_sphere + i);
 }
 
-/// What acts on the parts.
+/// What acts on the parts, or may.
 struct Touched {
-    std::vector<int> interfaces, parallels, sphere_bonds, contacts, bodies;
+    std::vector<int> interfaces, parallels, sphere_bonds, pairs, bodies;
 };
 
 Touched touched_by(const State& state, const std::vector<Parting>& partings)
@@ -146,7 +146,7 @@ Touched touched_by(const State& state, const std::vector<Parting>& partings)
         }
         return found;
     };
-    Touched t{list(state.interfaces), list(state.parallels), list(state.sphere_bonds), list(state.contacts), {}};
+    Touched t{list(state.interfaces), list(state.parallels), list(state.sphere_bonds), list(state.pairs), {}};
     for (std::size_t i = 0; i < concerned.size(); ++i) {
         if (concerned[i] != 0) t.bodies.push_back(static_cast<int>(i));
     }
@@ -155,7 +155,11 @@ Touched touched_by(const State& state, const std::vector<Parting>& partings)
 
 void bring_up_to_date(const Model& model, State& state, const Touched& t)
 {
-    contact_forces(model, state, t.contacts);
+    std::vector<int> contacts;
+    for (const int pair : t.pairs) {
+        if (state.pairs.contact[pair] >= 0) contacts.push_back(state.pairs.contact[pair]);
+    }
+    contact_forces(model, state, contacts);
     bond_forces(model, state, t.interfaces, t.parallels, t.sphere_bonds);
     gather_forces(model, state, t.bodies);
 }
@@ -289,7 +293,7 @@ std::vector<SplitReport> split_grains(Model& model, State& state, std::vector<Sp
     find_pairs(model, state);
     restore_slots(state, slots, interfaces, parallels);
     const Touched touched = touched_by(state, partings);
-    find_contacts(model, state, touched.contacts);
+    find_contacts(model, state, touched.pairs);
     const std::vector<int> given = give_contacts(model, state, partings, contacts);
     // what they hold, or lose at once to a tighter cap, is put in without work
     const auto held_and_lost = [&](int i) {

@@ -163,6 +163,7 @@ private:
         at(i.opening_limit, n) =
             model_.shapes.radius[state_.bodies.shape[a]] + model_.shapes.radius[state_.bodies.shape[b]];
         at(i.first_damage_time, n) = at(i.failure_time, n) = -1.0;
+        at(i.history, n) = no_history::none;
         at(i.point_begin, n) = state_.points.size();
         at(i.corner_begin, n) = state_.corners.size();
 

@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace grainfrac {
 
@@ -96,18 +100,53 @@ void add_sphere_bond(Model& model, State& state, const SpherePair& pair)
     p.law.at(n) = pair.law;
     const double ra = model.shapes.radius[b.shape[pair.a]], rb = model.shapes.radius[b.shape[pair.b]];
     const Vec3 branch = b.position[pair.b] - b.position[pair.a];
-    p.share.at(n) = ra / (ra + rb);
-    p.length.at(n) = norm(branch);
-    p.radius.at(n) = pair.radius;
-    p.normal_stiffness.at(n) = pair.springs.normal;
-    p.shear_stiffness.at(n) = pair.springs.shear;
-    p.bending_stiffness.at(n) = pair.springs.bending;
-    p.twist_stiffness.at(n) = pair.springs.twist;
+    p.kind.at(n) = n;
+    p.kinds.at(n) = {ra / (ra + rb),     norm(branch),
+                     pair.radius,        pair.springs.normal,
+                     pair.springs.shear, pair.springs.bending,
+                     pair.springs.twist, conjugate(b.orientation[pair.a]) * b.orientation[pair.b]};
     p.strength_factor.at(n) = pair.strength;
     p.axis_a.at(n) = rotate_back(b.orientation[pair.a], normalized(branch));
-    p.turn.at(n) = conjugate(b.orientation[pair.a]) * b.orientation[pair.b];
     p.normal.at(n) = normalized(branch);
     p.failure_time.at(n) = -1.0;
+}
+
+namespace {
+
+/// One entry for kinds of the same bits.
+void merge_kinds(SphereBonds& bonds)
+{
+    const std::vector<SphereBondKind> all = bonds.kinds.host();
+    const auto before = [&](int i, int j) {
+        return std::memcmp(&all[static_cast<std::size_t>(i)], &all[static_cast<std::size_t>(j)], sizeof all[0]) < 0;
+    };
+    std::map<int, std::int32_t, decltype(before)> number(before);
+    std::vector<SphereBondKind> different;
+    for (std::int32_t& kind : bonds.kind.host()) {
+        const auto [found, is_new] = number.emplace(kind, static_cast<std::int32_t>(different.size()));
+        if (is_new) different.push_back(all[static_cast<std::size_t>(kind)]);
+        kind = found->second;
+    }
+    different.shrink_to_fit();
+    bonds.kinds.host() = std::move(different);
+}
+
+}  // namespace
+
+void settle(const Model& model, SphereBonds& bonds)
+{
+    merge_kinds(bonds);
+    bool total = false, incremental = false, damped = false;
+    for (const SphereBondLaw& law : model.sphere_bond_laws.host()) {
+        (law.incremental ? incremental : total) = true;
+        damped = damped || law.damping > 0.0;
+    }
+    const auto keep = [](bool needed, auto&... arrays) {
+        if (!needed) ((arrays = {}), ...);
+    };
+    keep(total, bonds.axis_a);
+    keep(incremental, bonds.shear_force, bonds.moment, bonds.twist, bonds.normal);
+    keep(damped, bonds.viscous_force, bonds.viscous_moment);
 }
 
 }  // namespace grainfrac

@@ -47,5 +47,7 @@ BondSprings circular_bond(double normal_stiffness, double shear_stiffness, doubl
 /// Bond from centre to centre, unstressed where the bodies are now. Arms share the distance as the contact radii do.
 /// The caller adds pairs in sorted order.
 void add_sphere_bond(Model& model, State& state, const SpherePair& pair);
+/// After all bonds are made: equal ones share their kind, and arrays that no law of the model needs are taken away.
+void settle(const Model& model, SphereBonds& bonds);
 
 }  // namespace grainfrac

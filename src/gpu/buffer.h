@@ -60,6 +60,18 @@ public:
     T& at(int i) { return host()[static_cast<std::size_t>(i)]; }
 
     void resize(int n, const T& value = T{}) { host().resize(static_cast<std::size_t>(n), value); }
+    /// More entries at the end, T{}: what is on a device stays there as long as it has room for them.
+    void extend(int n)
+    {
+        const std::size_t before = host_.size(), now = static_cast<std::size_t>(n);
+        if (device_stale_ || now > capacity_) {
+            host().resize(now);
+            return;
+        }
+        host_.resize(now);
+        if (now > before)
+            cuda_detail::copy_to_device(device_ + before, host_.data() + before, (now - before) * sizeof(T));
+    }
     void assign(int n, const T& value) { host().assign(static_cast<std::size_t>(n), value); }
 
     View<const T> read(Device device) const
@@ -98,8 +110,8 @@ private:
         if (capacity_ < host_.size()) {
             if (device_ != nullptr) cuda_detail::release(device_);
             device_ = nullptr;
-            device_ = static_cast<T*>(cuda_detail::allocate(host_.size() * sizeof(T)));
-            capacity_ = host_.size();
+            device_ = static_cast<T*>(cuda_detail::allocate(host_.capacity() * sizeof(T)));
+            capacity_ = host_.capacity();
         }
         if (!host_.empty()) cuda_detail::copy_to_device(device_, host_.data(), host_.size() * sizeof(T));
         device_stale_ = false;

@@ -87,9 +87,10 @@ BondFace face_of(const State& state, const SphereBonds& bonds, int i)
     const Vec3 from = state.bodies.position[bonds.a[i]], branch = state.bodies.position[bonds.b[i]] - from;
     BondFace face;
     face.normal = normalized(branch);
-    face.opening = norm(branch) - bonds.length[i];
-    face.area = CircularSection(bonds.radius[i]).area;
-    face.center = from + bonds.share[i] * branch;
+    const SphereBondKind& kind = bonds.kind_of(i);
+    face.opening = norm(branch) - kind.length;
+    face.area = CircularSection(kind.radius).area;
+    face.center = from + kind.share * branch;
     draw_disc(face);
     return face;
 }
@@ -131,9 +132,10 @@ BondFacts facts_of(const InterfaceBonds& bonds, int i)
     return f;
 }
 
-/// What breaks at once: parallel bonds and bonds of spheres. `section` makes their stiffness one per area.
+/// What breaks at once: parallel bonds and bonds of spheres. `size` has their radius and stiffnesses, `section` makes
+/// these ones per area.
 template <class Bonds>
-BondFacts facts_of_circle(BondKind kind, const Bonds& bonds, int i, double section)
+BondFacts facts_of_circle(BondKind kind, const Bonds& bonds, int i, const SphereBondKind& size, double section)
 {
     BondFacts f;
     f.kind = kind;
@@ -143,11 +145,11 @@ BondFacts facts_of_circle(BondKind kind, const Bonds& bonds, int i, double secti
     f.stage = whole ? BondStage::whole : BondStage::broken;
     const bool sheared = bonds.cause[i] == static_cast<int>(BondCause::shear);
     if (!whole) f.cause = sheared ? CrackCause::shear : CrackCause::tension;
-    f.radius = bonds.radius[i];
+    f.radius = size.radius;
     f.area = CircularSection(f.radius).area;
     f.damage = whole ? 0.0 : 1.0;
-    f.normal_stiffness = bonds.normal_stiffness[i] / section;
-    f.shear_stiffness = bonds.shear_stiffness[i] / section;
+    f.normal_stiffness = size.normal_stiffness / section;
+    f.shear_stiffness = size.shear_stiffness / section;
     f.stored_energy = bonds.stored_energy[i];
     f.fracture_work = bonds.fracture_work[i];
     f.first_damage_time = f.failure_time = bonds.failure_time[i];
@@ -156,12 +158,17 @@ BondFacts facts_of_circle(BondKind kind, const Bonds& bonds, int i, double secti
 
 BondFacts facts_of(const ParallelBonds& bonds, int i)
 {
-    return facts_of_circle(BondKind::parallel, bonds, i, 1.0);
+    SphereBondKind size;
+    size.radius = bonds.radius[i];
+    size.normal_stiffness = bonds.normal_stiffness[i];
+    size.shear_stiffness = bonds.shear_stiffness[i];
+    return facts_of_circle(BondKind::parallel, bonds, i, size, 1.0);
 }
 
 BondFacts facts_of(const SphereBonds& bonds, int i)
 {
-    return facts_of_circle(BondKind::sphere, bonds, i, CircularSection(bonds.radius[i]).area);
+    const SphereBondKind& size = bonds.kind_of(i);
+    return facts_of_circle(BondKind::sphere, bonds, i, size, CircularSection(size.radius).area);
 }
 
 /// visit(bonds, i) for the bond in a slot.

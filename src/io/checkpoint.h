@@ -16,7 +16,7 @@
 namespace grainfrac {
 
 /// Rises when a checkpoint can no longer be read by older programs or older ones no longer by this.
-inline constexpr std::int64_t checkpoint_schema = 4;
+inline constexpr std::int64_t checkpoint_schema = 5;
 
 /// A checkpoint that nothing can go on from; the message names the file and the reason.
 struct CheckpointError : std::runtime_error {

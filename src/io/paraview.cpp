@@ -287,12 +287,12 @@ std::vector<int> bond_cells(const std::vector<BondFacts>& bonds)
     return slots;
 }
 
-std::vector<int> active_contacts(const Contacts& contacts)
+std::vector<int> active_contacts(const State& state)
 {
     std::vector<int> rows;
-    for (int i = 0; i < contacts.size(); ++i) {
-        if (contacts.active[i] == 1) rows.push_back(i);
-    }
+    state.for_each_contact([&](int i) {
+        if (state.contacts.active[i] == 1) rows.push_back(i);
+    });
     return rows;
 }
 
@@ -447,7 +447,7 @@ void write_bonds(const std::filesystem::path& path, const State& state)
 void write_contacts(const std::filesystem::path& path, const State& state)
 {
     const Contacts& contacts = state.contacts;
-    const std::vector<int> rows = active_contacts(contacts);
+    const std::vector<int> rows = active_contacts(state);
     vtkNew<vtkPolyData> cloud;
     add_vertices(cloud, rows, [&](int i) { return contacts.point[i].position; });
     vtkFieldData* data = cloud->GetPointData();

@@ -70,14 +70,14 @@ std::vector<WallRow> wall_rows(const Model& model, const State& state)
         ++r.bodies;
     }
     const Contacts& c = state.contacts;
-    for (int i = 0; i < c.size(); ++i) {
+    state.for_each_contact([&](int i) {
         const double force = norm(state.slots.force[state.bond_slots() + i]);
-        if (c.active[i] != 1 || force == 0.0) continue;
+        if (c.active[i] != 1 || force == 0.0) return;
         for (const int body : {c.a[i], c.b[i]}) {
             if (b.wall[body] < 0) continue;
             spread[static_cast<std::size_t>(b.wall[body])].add(force, c.point[i].position);
         }
-    }
+    });
     for (std::size_t w = 0; w < rows.size(); ++w) {
         if (rows[w].bodies > 0) rows[w].position *= 1.0 / rows[w].bodies;
         rows[w].contacts = spread[w].points;

@@ -28,6 +28,12 @@ struct FaceMoments {
     double reach_1 = 0.0, reach_2 = 0.0;  ///< largest |xi|, |eta| of points and corners [m]
 };
 
+/// InterfaceBonds::history of a face none of whose points can have been damaged. The second holds only until the faces
+/// have been evaluated: some point might begin now.
+namespace no_history {
+inline constexpr int none = -1, begins = -2;
+}
+
 /// Grain boundaries, one entry per shared face (physics: total form, no history but damage and slip).
 struct InterfaceBonds {
     Buffer<std::int32_t> a, b;          ///< bodies
@@ -54,6 +60,7 @@ struct InterfaceBonds {
     Buffer<std::int32_t> transgranular;  ///< 1: made by a split, within what was one grain
     Buffer<double> K_I, K_II;            ///< of the flaw that split the grain; 0 for boundaries [Pa sqrt(m)]
     // state
+    Buffer<std::int32_t> history;                     ///< of its first point, into PointHistories; or of no_history
     Buffer<std::int32_t> retired;                     ///< 1: dead and handed over to general contact
     Buffer<double> damage;                            ///< area mean [-]
     Buffer<double> stored_energy;                     ///< [J]
@@ -100,6 +107,7 @@ struct InterfaceBonds {
         visit("transgranular", transgranular);
         visit("K_I", K_I);
         visit("K_II", K_II);
+        visit("history", history);
         visit("retired", retired);
         visit("damage", damage);
         visit("stored_energy", stored_energy);
@@ -120,11 +128,6 @@ struct InterfaceBonds {
 struct InterfacePoints {
     Buffer<Vec3> position_a, position_b;  ///< in the frames of a and b; equal in space at creation [m]
     Buffer<double> weight;                ///< A_q [m^2]
-    // state
-    Buffer<double> damage;   ///< D [-]
-    Buffer<double> onset;    ///< lambda_0, energy norm at onset; 0 before [sqrt(J)/m]
-    Buffer<double> failure;  ///< lambda_f [sqrt(J)/m]
-    Buffer<Vec2> slip;       ///< delta_sl on the mean reference tangents [m]
 
     int size() const { return weight.size(); }
 
@@ -134,6 +137,22 @@ struct InterfacePoints {
         visit("position_a", position_a);
         visit("position_b", position_b);
         visit("weight", weight);
+    }
+};
+
+/// What the points of some faces remember: all points of a face one after the other, faces in the order in which they
+/// came near to damage.
+struct PointHistories {
+    Buffer<double> damage;   ///< D [-]
+    Buffer<double> onset;    ///< lambda_0, energy norm at onset; 0 before [sqrt(J)/m]
+    Buffer<double> failure;  ///< lambda_f [sqrt(J)/m]
+    Buffer<Vec2> slip;       ///< delta_sl on the mean reference tangents [m]
+
+    int size() const { return damage.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
         visit("damage", damage);
         visit("onset", onset);
         visit("failure", failure);
@@ -209,20 +228,27 @@ struct ParallelBonds {
     }
 };
 
+/// What many bonds between spheres have in common: all of a lattice, down to round-off, that are made at once.
+struct SphereBondKind {
+    double share = 0.0;                                     ///< w: arm of a over the distance of the centres [-]
+    double length = 0.0;                                    ///< unstressed distance of the centres [m]
+    double radius = 0.0;                                    ///< R of the section, for stresses and pictures [m]
+    double normal_stiffness = 0.0;                          ///< K_n [N/m]
+    double shear_stiffness = 0.0;                           ///< K_s [N/m]
+    double bending_stiffness = 0.0, twist_stiffness = 0.0;  ///< K_b, K_t; 0 for spring-dashpots [N m]
+    Quat turn;  ///< total form: from the frame of b to that of a when the bond was made [-]
+};
+
 /// Bonds between spheres, from centre to centre; the interface of a fibre is an InterfaceBond. The law says which form:
-/// total (from where the spheres are now, Kuzkin and Asonov 2012) or incremental (with a history, spring-dashpot).
+/// total (from where the spheres are now, Kuzkin and Asonov 2012) or incremental (with a history, spring-dashpot). What
+/// no law of the model needs may be empty (settle, generate/spheres.h).
 struct SphereBonds {
-    Buffer<std::int32_t> a, b;                          ///< bodies
-    Buffer<std::int32_t> law;                           ///< into Model::sphere_bond_laws
-    Buffer<double> share;                               ///< w: arm of a over the distance of the centres [-]
-    Buffer<double> length;                              ///< unstressed distance of the centres [m]
-    Buffer<double> radius;                              ///< R of the section, for stresses and pictures [m]
-    Buffer<double> normal_stiffness;                    ///< K_n [N/m]
-    Buffer<double> shear_stiffness;                     ///< K_s [N/m]
-    Buffer<double> bending_stiffness, twist_stiffness;  ///< K_b, K_t; 0 for spring-dashpots [N m]
-    Buffer<double> strength_factor;                     ///< scatter: multiplies strengths [-]
+    Buffer<std::int32_t> a, b;       ///< bodies
+    Buffer<std::int32_t> law;        ///< into Model::sphere_bond_laws
+    Buffer<std::int32_t> kind;       ///< into kinds
+    Buffer<SphereBondKind> kinds;    ///< a table; of any length
+    Buffer<double> strength_factor;  ///< scatter: multiplies strengths [-]
     Buffer<Vec3> axis_a;  ///< total form: unit vector from a to b when the bond was made, in the frame of a [-]
-    Buffer<Quat> turn;    ///< total form: from the frame of b to that of a when the bond was made [-]
     // state
     Buffer<Vec3> shear_force;      ///< incremental form: on b, world frame [N]
     Buffer<Vec3> moment;           ///< incremental form: bending moment on b at the contact point, world frame [N m]
@@ -233,9 +259,11 @@ struct SphereBonds {
     Buffer<double> fracture_work;  ///< [J]
     Buffer<double> viscous_work;   ///< [J]
     Buffer<double> failure_time;   ///< -1 before [s]
-    Buffer<Vec3> viscous_force, viscous_moment;  ///< on b at the contact point, of the last evaluation [N], [N m]
+    Buffer<Vec3> viscous_force, viscous_moment;  ///< with dashpots: on b at the contact point, of the last evaluation
+                                                 ///< [N], [N m]
 
     int size() const { return a.size(); }
+    const SphereBondKind& kind_of(int i) const { return kinds.host()[static_cast<std::size_t>(kind[i])]; }
 
     template <class Visit>
     void for_each_array(Visit&& visit)
@@ -243,16 +271,10 @@ struct SphereBonds {
         visit("a", a);
         visit("b", b);
         visit("law", law);
-        visit("share", share);
-        visit("length", length);
-        visit("radius", radius);
-        visit("normal_stiffness", normal_stiffness);
-        visit("shear_stiffness", shear_stiffness);
-        visit("bending_stiffness", bending_stiffness);
-        visit("twist_stiffness", twist_stiffness);
+        visit("kind", kind);
+        visit("kinds", kinds);
         visit("strength_factor", strength_factor);
         visit("axis_a", axis_a);
-        visit("turn", turn);
         visit("shear_force", shear_force);
         visit("moment", moment);
         visit("twist", twist);

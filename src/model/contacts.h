@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Candidate pairs of the neighbour list and what a contact remembers. Sorted by (a, b), a < b.
+// Candidate pairs of the neighbour list, and contacts: what those that touch, or have done so, remember.
 #pragma once
 
 #include "geometry/gjk.h"
@@ -19,25 +19,57 @@ struct ContactPoint {
     double overlap_energy = 0.0;  ///< U [m^4]
     double area = 0.0;            ///< of a uniform pressure with this force and energy; A_ref for points [m^2]
     double twist_radius = 0.0;    ///< radius of the circle as large as the pressed faces; 0 for points and lines [m]
-    double depth = 0.0;           ///< largest penetration; or held_by_bonds [m]
+    double depth = 0.0;           ///< largest penetration [m]
 };
 
-/// ContactPoint::depth, Contacts::found and Contacts::active, of a pair whose bonds still act: it has no contact of its
-/// own.
+/// Contacts::found and Contacts::active of a pair whose bonds still act: it has no contact of its own.
 inline constexpr int held_by_bonds = -1;
+/// The same of a pair whose cores are in each other, an error state.
+inline constexpr int cores_penetrate = -2;
 
-struct Contacts {
+/// CandidatePairs::contact of a pair that has none. The last two hold only until the pairs have been looked at: it is
+/// to get one, and in the second case takes over from the pair's bonds.
+namespace no_contact {
+inline constexpr int held = held_by_bonds, apart = -2, begins = -3, takes_over = -4;
+}
+
+/// Pairs of the neighbour list, sorted by (a, b), a < b: what it takes to pass them over. Most never touch.
+struct CandidatePairs {
     Buffer<std::int32_t> a, b;  ///< bodies
     Buffer<std::int32_t> law;   ///< into Model::contact_laws
     Buffer<std::int32_t>
         bond_slot;  ///< first slot of the bonds between a and b; they suppress the contact till retired
     Buffer<std::int32_t> bond_count;  ///< how many
-    Buffer<ContactPoint> point;       ///< derived
     Buffer<double> apart_until;       ///< State::travel up to which the two cannot meet; 0: to be looked at [m]
     Buffer<ClosestCorners> corners;   ///< where the search for the closest points of the cores begins
-    Buffer<std::int32_t> found;       ///< derived: 1 if they touch, 0 if apart, or held_by_bonds
+    Buffer<std::int32_t> contact;     ///< into Contacts, or one of no_contact
+
+    int size() const { return a.size(); }
+
+    template <class Visit>
+    void for_each_array(Visit&& visit)
+    {
+        visit("a", a);
+        visit("b", b);
+        visit("law", law);
+        visit("bond_slot", bond_slot);
+        visit("bond_count", bond_count);
+        visit("apart_until", apart_until);
+        visit("corners", corners);
+        visit("contact", contact);
+    }
+};
+
+/// Contacts of the pairs that have touched since they came into the neighbour list. In the order of the pairs when the
+/// list is made; those that come later are added at the end, those of one step in the order of the pairs.
+struct Contacts {
+    Buffer<std::int32_t> pair;   ///< into CandidatePairs
+    Buffer<std::int32_t> a, b;   ///< bodies, as of the pair
+    Buffer<std::int32_t> law;    ///< into Model::contact_laws, as of the pair
+    Buffer<ContactPoint> point;  ///< derived
+    Buffer<std::int32_t> found;  ///< derived: 1 if they touch, 0 if apart, held_by_bonds or cores_penetrate
     // state
-    Buffer<std::int32_t> active;     ///< 1 while in contact, 0 while apart, or held_by_bonds
+    Buffer<std::int32_t> active;     ///< `found` of the last evaluation
     Buffer<Vec3> shear_force;        ///< F_t on a, world frame [N]
     Buffer<Vec3> normal;             ///< of the last evaluation [-]
     Buffer<double> twist_moment;     ///< about the normal, on a [N m]
@@ -59,20 +91,11 @@ struct Contacts {
     template <class Visit>
     void for_each_array(Visit&& visit)
     {
+        visit("pair", pair);
         visit("a", a);
         visit("b", b);
         visit("law", law);
-        visit("bond_slot", bond_slot);
-        visit("bond_count", bond_count);
         visit("point", point);
-        visit("apart_until", apart_until);
-        for_each_history(visit);
-    }
-    /// What travels with a pair when the neighbour list is made anew.
-    template <class Visit>
-    void for_each_history(Visit&& visit)
-    {
-        visit("corners", corners);
         visit("found", found);
         visit("active", active);
         visit("shear_force", shear_force);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What changes in a step. Every interaction has a slot; a body adds its slots in a fixed order.
+// What changes in a step. Every bond and every contact has a slot; a body adds its slots in a fixed order.
 #pragma once
 
 #include "model/bodies.h"
@@ -28,9 +28,18 @@ struct Slots {
         torque_a.resize(n);
         torque_b.resize(n);
     }
+    /// More of them at the end, with nothing in them.
+    void extend(int n)
+    {
+        force.extend(n);
+        torque_a.extend(n);
+        torque_b.extend(n);
+    }
 };
 
-/// Slots of each body: entries [begin[i], begin[i+1]), each 2 * slot + side (0: the body is a, 1: it is b), ascending.
+/// Interactions of each body: entries [begin[i], begin[i+1]), each 2 * interaction + side (0: the body is a, 1: it is
+/// b), ascending. Interactions are counted as bonds by their slots, then pairs of the neighbour list: SlotOf
+/// (model/views.h).
 struct Incidence {
     Buffer<std::int32_t> begin;
     Buffer<std::int32_t> entry;
@@ -45,9 +54,11 @@ struct State {
     Bodies bodies;
     InterfaceBonds interfaces;
     InterfacePoints points;
+    PointHistories histories;
     InterfaceCorners corners;
     ParallelBonds parallels;
     SphereBonds sphere_bonds;
+    CandidatePairs pairs;
     Contacts contacts;
     Slots slots;
     Incidence incidence;
@@ -68,6 +79,16 @@ struct State {
     }
     int first_sphere_slot() const { return interfaces.size() + parallels.size(); }
     int bond_slots() const { return first_sphere_slot() + sphere_bonds.size(); }
+    int interactions() const { return bond_slots() + pairs.size(); }
+
+    /// visit(contact) in the order of the pairs, whenever they met.
+    template <class Visit>
+    void for_each_contact(Visit&& visit) const
+    {
+        for (int i = 0; i < pairs.size(); ++i) {
+            if (pairs.contact[i] >= 0) visit(pairs.contact[i]);
+        }
+    }
 };
 
 }  // namespace grainfrac

@@ -2,6 +2,7 @@
 #include "model/validate.h"
 
 #include "model/checksum.h"
+#include "model/point_history.h"
 
 #include <fmt/format.h>
 
@@ -66,6 +67,18 @@ private:
     std::uint64_t hash_ = no_bytes_checksum;
 };
 
+/// What contacts remember in the order of their pairs, whenever they met; T{} for pairs without one.
+template <class T>
+Buffer<T> of_pairs(const State& state, const Buffer<T>& values)
+{
+    Buffer<T> listed;
+    listed.resize(state.pairs.size());
+    for (int i = 0; i < state.pairs.size(); ++i) {
+        if (const int contact = state.pairs.contact[i]; contact >= 0) listed.at(i) = values[contact];
+    }
+    return listed;
+}
+
 }  // namespace
 
 std::string why_not_valid(const Model& model, const State& state)
@@ -74,9 +87,14 @@ std::string why_not_valid(const Model& model, const State& state)
     if (auto why = bonds_problem("interface", state.interfaces, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("sphere bond", state.sphere_bonds, state.bodies.size()); !why.empty()) return why;
-    for (int q = 0; q < state.points.size(); ++q) {
-        if (!(state.points.damage[q] >= 0.0 && state.points.damage[q] <= 1.0))
-            return fmt::format("interface point {}: damage out of [0, 1]", q);
+    const Contacts& c = state.contacts;
+    for (int i = 0; i < c.size(); ++i) {
+        const int pair = c.pair[i];
+        if (pair < 0 || pair >= state.pairs.size() || state.pairs.contact[pair] != i)
+            return fmt::format("contact {}: is not that of its pair", i);
+    }
+    for (const double damage : state.histories.damage.host()) {
+        if (!(damage >= 0.0 && damage <= 1.0)) return fmt::format("an interface point has a damage of {}", damage);
     }
     return {};
 }
@@ -88,13 +106,26 @@ std::uint64_t state_hash(const State& state)
     h.add(state.bodies.orientation);
     h.add(state.bodies.velocity);
     h.add(state.bodies.angular_momentum);
-    h.add(state.points.damage);
-    h.add(state.points.slip);
+    Buffer<double> damage;
+    Buffer<Vec2> slip;
+    damage.resize(state.points.size());
+    slip.resize(state.points.size());
+    for (int i = 0; i < state.interfaces.size(); ++i) {
+        for (int q = state.interfaces.point_begin[i]; q < state.interfaces.point_begin[i + 1]; ++q) {
+            const InterfacePointState p = point_state(state, i, q);
+            damage.at(q) = p.damage;
+            slip.at(q) = {p.slip1, p.slip2};
+        }
+    }
+    h.add(damage);
+    h.add(slip);
     h.add(state.parallels.force);
-    h.add(state.sphere_bonds.shear_force);
+    Buffer<Vec3> shear = state.sphere_bonds.shear_force;  // empty where no law needs it
+    shear.resize(state.sphere_bonds.size());
+    h.add(shear);
     h.add(state.sphere_bonds.cause);
-    h.add(state.contacts.shear_force);
-    h.add(state.contacts.max_overlap);
+    h.add(of_pairs(state, state.contacts.shear_force));
+    h.add(of_pairs(state, state.contacts.max_overlap));
     return h.value();
 }
 

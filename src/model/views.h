@@ -31,6 +31,22 @@ inline SlotsView slots_view(Slots& s, Device device)
             s.dyad_a.write(device), s.dyad_b.write(device),   s.bond_acts.write(device)};
 }
 
+/// Slot of an interaction, as Incidence counts them; -1 for pairs without a contact.
+struct SlotOf {
+    int bonds;
+    View<const std::int32_t> contact;  // of the pairs
+    GF_FN int operator()(int interaction) const
+    {
+        if (interaction < bonds) return interaction;
+        const int k = contact[interaction - bonds];
+        return k >= 0 ? bonds + k : -1;
+    }
+};
+inline SlotOf slot_of(const State& state, Device device)
+{
+    return {state.bond_slots(), state.pairs.contact.read(device)};
+}
+
 /// 1/(1/m_a + 1/m_b); 0 if both are driven [kg].
 GF_FN double reduced_mass(double inverse_mass_a, double inverse_mass_b)
 {

@@ -20,6 +20,13 @@ double total(Device d, const Buffer<double>& values)
     return parallel_sum(d, values.size(), Entry{values.read(d)});
 }
 
+/// Of contacts, in the order of their pairs: sums do not depend on which met first.
+struct EntryOfPair {
+    View<const std::int32_t> contact;
+    View<const double> values;
+    GF_FN double operator()(int i) const { return contact[i] >= 0 ? values[contact[i]] : 0.0; }
+};
+
 /// 1/2 m v^2 + 1/2 L_b . I^-1 L_b of what is not driven or held.
 struct KineticEnergy {
     View<const Vec3> velocity, angular_momentum, inverse_inertia;
@@ -68,18 +75,21 @@ Ledger energy_ledger(const Model& model, const State& state)
     const SphereBonds& s = state.sphere_bonds;
     const Contacts& c = state.contacts;
     const PastContacts& past = state.past_contacts;
+    const auto of_contacts = [&](const Buffer<double>& values) {
+        return parallel_sum(d, state.pairs.size(), EntryOfPair{state.pairs.contact.read(d), values.read(d)});
+    };
     Ledger e;
     e.kinetic = parallel_sum(d, b.size(),
                              KineticEnergy{b.velocity.read(d), b.angular_momentum.read(d), b.inverse_inertia.read(d),
                                            b.mass.read(d), b.inverse_mass.read(d), b.held.read(d)});
     e.elastic_bonds = total(d, i.stored_energy) + total(d, p.stored_energy) + total(d, s.stored_energy);
-    e.elastic_contacts = total(d, c.stored_energy);
+    e.elastic_contacts = of_contacts(c.stored_energy);
     e.fracture = total(d, i.fracture_work) + total(d, p.fracture_work) + total(d, s.fracture_work);
-    e.friction = total(d, i.friction_work) + total(d, c.friction_work) + past.friction_work;
+    e.friction = total(d, i.friction_work) + of_contacts(c.friction_work) + past.friction_work;
     e.damping = total(d, i.viscous_work) + total(d, p.viscous_work) + total(d, s.viscous_work) +
-                total(d, c.viscous_work) + past.viscous_work + total(d, c.hysteresis_work) + past.hysteresis_work +
-                total(d, b.damping_work);
-    e.inserted = total(d, i.inserted_work) + total(d, c.inserted_work) + past.inserted_work;
+                of_contacts(c.viscous_work) + past.viscous_work + of_contacts(c.hysteresis_work) +
+                past.hysteresis_work + total(d, b.damping_work);
+    e.inserted = total(d, i.inserted_work) + of_contacts(c.inserted_work) + past.inserted_work;
     e.external = total(d, b.external_work);
     e.gravity = total(d, b.gravity_work);
     e.initial = state.initial_energy;

@@ -3,6 +3,7 @@
 
 #include "contact/gather.h"
 #include "gpu/parallel.h"
+#include "model/views.h"
 #include "motion/energy.h"
 #include "motion/spread_supports.h"
 #include "motion/step.h"
@@ -39,13 +40,15 @@ struct Residual {
 };
 
 struct Acting {
+    SlotOf slot_of;
     View<const Vec3> force;
-    GF_FN double operator()(int i) const { return norm(force[i]); }
+    GF_FN double operator()(int i) const { return slot_of(i) >= 0 ? norm(force[slot_of(i)]) : 0.0; }
 };
 
 struct IsActing {
+    SlotOf slot_of;
     View<const Vec3> force;
-    GF_FN double operator()(int i) const { return norm2(force[i]) > 0.0 ? 1.0 : 0.0; }
+    GF_FN double operator()(int i) const { return slot_of(i) >= 0 && norm2(force[slot_of(i)]) > 0.0 ? 1.0 : 0.0; }
 };
 
 struct KeepForces {
@@ -166,11 +169,13 @@ double residual(const Model& model, const State& state, double& largest)
 {
     const Device d = model.device;
     const Bodies& b = state.bodies;
-    const Slots& s = state.slots;
+    const int n = state.interactions();
+    const SlotOf slots = slot_of(state, d);
+    const View<const Vec3> force = state.slots.force.read(d);
     const double left =
         parallel_sum(d, b.size(), Residual{b.force.read(d), b.inverse_mass.read(d), b.held.read(d)}) / b.size();
-    const double acting = parallel_sum(d, s.size(), IsActing{s.force.read(d)});
-    const double mean = acting > 0.0 ? parallel_sum(d, s.size(), Acting{s.force.read(d)}) / acting : 0.0;
+    const double acting = parallel_sum(d, n, IsActing{slots, force});
+    const double mean = acting > 0.0 ? parallel_sum(d, n, Acting{slots, force}) / acting : 0.0;
     largest = std::max(largest, mean);
     const double measure = std::max(mean, least_measure * largest);
     return measure > 0.0 ? left / measure : 0.0;

@@ -27,16 +27,18 @@ struct Push {
 struct Resistance {
     int which;
     double dt;
-    View<const std::int32_t> wall, a, b, law, active;
+    View<const std::int32_t> wall, a, b, law, contact;  // the last four of pairs
+    View<const std::int32_t> active;
     View<const double> inverse_mass;
     View<const LinearContact> laws;
     View<const double> scale;
     View<const ContactPoint> point;
     GF_FN double operator()(int i) const
     {
-        if ((wall[a[i]] != which && wall[b[i]] != which) || active[i] != 1) return 0.0;
+        const int k = contact[i];
+        if ((wall[a[i]] != which && wall[b[i]] != which) || k < 0 || active[k] != 1) return 0.0;
         const LinearContact& l = laws[law[i]];
-        const double K = l.area_stiffness * scale[i] * point[i].area;
+        const double K = l.area_stiffness * scale[k] * point[k].area;
         const double m = reduced_mass(inverse_mass[a[i]], inverse_mass[b[i]]);
         return l.unload_factor * K * dt + 2.0 * l.damping_ratio * std::sqrt(K * m);
     }
@@ -57,12 +59,13 @@ struct SetVelocity {
 double resistance(const Model& model, const State& state, int wall, double dt)
 {
     const Device d = model.device;
+    const CandidatePairs& p = state.pairs;
     const Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
-    return parallel_sum(
-        d, c.size(),
-        Resistance{wall, dt, b.wall.read(d), c.a.read(d), c.b.read(d), c.law.read(d), c.active.read(d),
-                   b.inverse_mass.read(d), model.contact_laws.read(d), c.stiffness_scale.read(d), c.point.read(d)});
+    return parallel_sum(d, p.size(),
+                        Resistance{wall, dt, b.wall.read(d), p.a.read(d), p.b.read(d), p.law.read(d), p.contact.read(d),
+                                   c.active.read(d), b.inverse_mass.read(d), model.contact_laws.read(d),
+                                   c.stiffness_scale.read(d), c.point.read(d)});
 }
 
 }  // namespace

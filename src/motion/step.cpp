@@ -36,8 +36,8 @@ void step(const Model& model, State& state, double dt, bool want_stress)
     state.time += dt;
     ++state.step;
     if (pairs_are_stale(model, state, dt)) find_pairs(model, state);
+    follow_contacts(model, state);  // geometry only: overlap, normal, point; contacts that begin
     make_room_for_stress(state, want_stress);
-    follow_contacts(model, state);  // geometry only: overlap, normal, point
     contact_forces(model, state, dt);
     fibre_pressures(model, state);
     bond_forces(model, state, dt);  // interfaces and parallel bonds; marks what breaks

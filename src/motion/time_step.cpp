@@ -122,9 +122,10 @@ void add_sphere_bonds(const Model& model, const State& state, Stiffness& s)
         BondGeometry g;
         g.length = norm(branch);
         g.e = branch / g.length;
-        g.rest = p.length[i];
-        g.share = p.share[i];
-        const BondSprings k{p.normal_stiffness[i], p.shear_stiffness[i], p.bending_stiffness[i], p.twist_stiffness[i]};
+        const SphereBondKind& kind = p.kind_of(i);
+        g.rest = kind.length;
+        g.share = kind.share;
+        const BondSprings k{kind.normal_stiffness, kind.shear_stiffness, kind.bending_stiffness, kind.twist_stiffness};
         const BondMasses m(g, b.inverse_mass[bodies[0]], b.inverse_mass[bodies[1]], b.inverse_inertia[bodies[0]].x,
                            b.inverse_inertia[bodies[1]].x);
         const double zeta = model.dashpots_active ? model.sphere_bond_laws[p.law[i]].damping : 0.0;
@@ -148,15 +149,17 @@ void add_sphere_bonds(const Model& model, const State& state, Stiffness& s)
 /// first and are the stiffest. `nearby`: every pair of the neighbour list counts, with its reference area.
 void add_contacts(const Model& model, const State& state, Stiffness& s, bool nearby = false)
 {
+    const CandidatePairs& pairs = state.pairs;
     const Contacts& c = state.contacts;
     const Bodies& b = state.bodies;
-    for (int i = 0; i < c.size(); ++i) {
-        const int bodies[2] = {c.a[i], c.b[i]};
+    for (int i = 0; i < pairs.size(); ++i) {
+        const int bodies[2] = {pairs.a[i], pairs.b[i]}, contact = pairs.contact[i];
         if (!s.wants(bodies[0], bodies[1])) continue;
-        const LinearContact law = model.contact_laws[c.law[i]];
-        const ContactPoint p = c.point[i];
+        if (contact >= 0 ? c.found[contact] == held_by_bonds : contact == no_contact::held) continue;
+        const LinearContact law = model.contact_laws[pairs.law[i]];
+        const ContactPoint p = contact >= 0 ? c.point[contact] : ContactPoint{};
         const bool with_wall = b.inverse_mass[bodies[0]] == 0.0 || b.inverse_mass[bodies[1]] == 0.0;
-        if (p.depth < 0.0 || (p.overlap_energy <= 0.0 && !with_wall && !nearby)) continue;
+        if (p.overlap_energy <= 0.0 && !with_wall && !nearby) continue;
         double area = p.area;
         Vec3 arm[2] = {p.position - b.position[bodies[0]], p.position - b.position[bodies[1]]}, normal = p.normal;
         if (with_wall)
@@ -175,7 +178,8 @@ void add_contacts(const Model& model, const State& state, Stiffness& s, bool nea
             normal = (near.b - near.a) * (1.0 / near.distance);
             arm[0] = arm[1] = Vec3{};
         }
-        const double k = law.area_stiffness * c.stiffness_scale[i] * area * law.unload_factor;
+        const double scale = contact >= 0 ? c.stiffness_scale[contact] : 1.0;
+        const double k = law.area_stiffness * scale * area * law.unload_factor;
         for (const int side : {0, 1}) {
             // a force next to nothing beside a couple has its line of action far away; a whole face has not
             const double reach = model.shapes.bounding_radius[b.shape[bodies[side]]], length = norm(arm[side]);
@@ -222,8 +226,8 @@ double damping_at(const State& state, const Model& model, double omega)
         if (p.cause[i] == 0) worst = std::fmax(worst, 0.5 * omega * p.normal_damping[i] / k);
     }
     // a contact's dashpot is 2 zeta sqrt(K m*): whatever its area, its ratio at omega >= sqrt(K/m*) is at most zeta
-    const Contacts& c = state.contacts;
-    for (int i = 0; i < c.size(); ++i) worst = std::fmax(worst, model.contact_laws[c.law[i]].damping_ratio);
+    for (const std::int32_t law : state.pairs.law.host())
+        worst = std::fmax(worst, model.contact_laws[law].damping_ratio);
     return worst;
 }
 

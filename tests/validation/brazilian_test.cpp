@@ -63,7 +63,7 @@ TEST_CASE("assembly at rest without bonds: nothing presses")
         double deepest = 0, strongest = 0;
         for (int i = 0; i < b.state.contacts.size(); ++i) deepest = std::max(deepest, b.state.contacts.point[i].depth);
         for (int i = 0; i < b.state.bodies.size(); ++i) strongest = std::max(strongest, norm(b.state.bodies.force[i]));
-        CHECK(b.state.contacts.size() > 400);
+        CHECK(b.state.pairs.size() > 400);
         CHECK(deepest < 1e-12 * b.model.nominal_length);
         const double k = b.model.contact_laws[0].area_stiffness * 3e-6;  // largest face
         CHECK(strongest < k * 1e-12 * b.model.nominal_length);

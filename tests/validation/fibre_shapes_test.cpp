@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pull-outs of hooked and wavy fibres and of several at once: whole paths against what holds whatever the shape.
+#include "model/point_history.h"
 #include "support/pull_out.h"
 
 #include <catch2/catch.hpp>
@@ -37,14 +38,13 @@ Case bent_case(const char* shape)
 double taken_by_damage(const PulledOut& run)
 {
     const InterfaceBonds& f = run.built.state.interfaces;
-    const InterfacePoints& p = run.built.state.points;
     double taken = 0.0;
     for (const int i : fibre_interfaces(run.pull_out(), run.built.state)) {
-        const int q = f.point_begin[i];
-        if (p.onset[q] == 0.0) continue;
-        CHECK(0.5 * p.onset[q] * p.failure[q] == Approx(toughness).epsilon(1e-12));
-        const double lambda = p.failure[q] * p.onset[q] / (p.failure[q] - f.damage[i] * (p.failure[q] - p.onset[q]));
-        taken += f.area[i] * toughness * (lambda - p.onset[q]) / (p.failure[q] - p.onset[q]);
+        const InterfacePointState p = point_state(run.built.state, i, f.point_begin[i]);
+        if (p.onset == 0.0) continue;
+        CHECK(0.5 * p.onset * p.failure == Approx(toughness).epsilon(1e-12));
+        const double lambda = p.failure * p.onset / (p.failure - f.damage[i] * (p.failure - p.onset));
+        taken += f.area[i] * toughness * (lambda - p.onset) / (p.failure - p.onset);
     }
     return taken;
 }

@@ -92,7 +92,7 @@ Assembly pressed_spheres()
         a.state.bodies.angular_velocity.at(i) = random_vector(draw);
     }
     find_pairs(a.model, a.state);
-    for (int k = 0; k < a.state.contacts.size(); ++k) a.state.contacts.law.at(k) = k / 23 % 3;
+    for (int k = 0; k < a.state.pairs.size(); ++k) a.state.pairs.law.at(k) = k / 23 % 3;
     find_contacts(a.model, a.state);
     return a;
 }

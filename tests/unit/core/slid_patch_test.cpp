@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A patch that has slid far: its jump is measured in a frame that turns by the mean of both bodies, so that its springs
 // act on the motion of the point half-way between its two points, where its forces act too.
+#include "model/point_history.h"
 #include "motion/time_step.h"
 #include "support/spheres.h"
 
@@ -20,7 +21,7 @@ TEST_CASE("the stiffness of a patch that has slid is that of springs half-way be
     bond(a, law, 0.0, k_n, k_s / k_n);
     State& s = a.state;
     InterfaceBonds& f = s.interfaces;
-    InterfacePoints& p = s.points;
+    const InterfacePoints& p = s.points;
     REQUIRE(f.size() == 1);
     const auto in_space = [&](int body, const Vec3& v) { return rotate(s.bodies.orientation[body], v); };
     const Vec3 n = in_space(0, f.normal_a[0]), t1 = in_space(0, f.tangent_a[0]), t2 = cross(n, t1);
@@ -30,9 +31,7 @@ TEST_CASE("the stiffness of a patch that has slid is that of springs half-way be
     f.first_damage_time.at(0) = 0.0;
     a.model.fracture_active = false;
     for (int q = 0; q < p.weight.size(); ++q) {  // broken, and without force where it has come to
-        p.damage.at(q) = 1.0;
-        p.onset.at(q) = p.failure.at(q) = 1e-9;
-        p.slip.at(q) = {dot(way, t1), dot(way, t2)};
+        set_point_state(s, 0, q, {1.0, 1e-9, 1e-9, dot(way, t1), dot(way, t2)});
     }
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(12, 12);
     for (int q = 0; q < p.weight.size(); ++q) {

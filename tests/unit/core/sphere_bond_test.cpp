@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One bond between two spheres: balance, potential, objectivity, limits of the step. Closed forms and tolerances:
 // docs/theory/sphere_bonds.md, sections 1 to 5.
+#include "model/validate.h"
 #include "support/spheres.h"
 
 using namespace grainfrac;
@@ -208,4 +209,49 @@ TEST_CASE("a strained bond that turns ten times holds the force it had")
 TEST_CASE("the force of a sheared bond turns with it by a right angle")
 {
     CHECK(drift_in_rotation(true, 0.5 * std::numbers::pi, 20000) < 1e-6);
+}
+
+TEST_CASE(
+    "equal bonds share their constants, and arrays that no law needs are empty: the forces are the same to the bit")
+{
+    for (const bool incremental : {false, true}) {
+        for (const double zeta : {0.0, 0.2}) {
+            int draw = 0;
+            Assembly a = sphere_assembly(unbreakable_bond(incremental, zeta));
+            sphere(a, {}, 0.5);
+            for (int i = 1; i < 40; ++i) {
+                sphere(a, {1.0 * i, 0, 0}, 0.5);
+                join(a, i - 1, i, {3.0 + i % 4, 1.7, 0.9, 0.6});
+            }
+            build_incidence(a.state);
+            start_bonds(a.model, a.state);
+            Assembly settled = a;
+            settle(settled.model, settled.state.sphere_bonds);
+            SphereBonds &p = settled.state.sphere_bonds, &q = a.state.sphere_bonds;
+            CHECK(p.kinds.size() == 4);
+            CHECK(p.axis_a.empty() == incremental);
+            CHECK(p.shear_force.empty() == !incremental);
+            CHECK(p.viscous_force.empty() == (zeta == 0.0));
+            for (int step = 0; step < 3; ++step) {
+                for (int i = 0; i < 40; ++i) {
+                    const Vec3 u = 1e-3 * random_vector(draw), v = random_vector(draw), w = random_vector(draw);
+                    for (State* s : {&a.state, &settled.state}) {
+                        shift(*s, i, u);
+                        turn(*s, i, from_axis_angle(normalized(w), 1e-3));
+                        s->bodies.velocity.at(i) = v;
+                        s->bodies.angular_velocity.at(i) = w;
+                    }
+                }
+                sphere_bond_forces(a.model, a.state, 1e-3);
+                sphere_bond_forces(settled.model, settled.state, 1e-3);
+                for (int i = 0; i < q.size(); ++i) {
+                    CHECK(settled.state.slots.force[i] == a.state.slots.force[i]);
+                    CHECK(settled.state.slots.torque_b[i] == a.state.slots.torque_b[i]);
+                    CHECK(p.stored_energy[i] == q.stored_energy[i]);
+                    CHECK(p.viscous_work[i] == q.viscous_work[i]);
+                }
+            }
+            CHECK(state_hash(settled.state) == state_hash(a.state));
+        }
+    }
 }

@@ -164,7 +164,8 @@ TEST_CASE("a split in a loaded, spinning block: no jump of forces, accelerations
     for (int k = 0; k < 20; ++k) {
         Assembly a = block(draw, k % 2 == 0 ? 1e-3 : 8e-3);  // whole, and damaged
         if (k % 2 == 1)
-            CHECK(*std::max_element(a.state.points.damage.host().begin(), a.state.points.damage.host().end()) > 0.1);
+            CHECK(*std::max_element(a.state.histories.damage.host().begin(), a.state.histories.damage.host().end()) >
+                  0.1);
         const Bodies& b = a.state.bodies;
         std::vector<Vec3> force, torque;
         for (int i = 0; i < b.size(); ++i) {

@@ -188,6 +188,8 @@ struct StressedGrain {
         s.slots.resize(slot + 1);
         s.contacts.for_each_array([&](const char*, auto& array) { array.resize(slot + 1); });
         s.contacts.active.at(slot) = 1;
+        s.pairs.for_each_array([&](const char*, auto& array) { array.resize(slot + 1); });
+        s.pairs.contact.at(slot) = slot;
         s.slots.force.host()[static_cast<std::size_t>(slot)] = -1.0 * f;  // on b; the grain is a
         s.slots.torque_a.host()[static_cast<std::size_t>(slot)] = cross(d, f);
         s.slots.dyad_a.host().push_back(Mat3::outer(d, f));

@@ -4,6 +4,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/device.h"
+#include "gpu/select.h"
 
 #include <catch2/catch.hpp>
 
@@ -24,6 +25,12 @@ struct Square {
 struct Entry {
     View<const double> x;
     GF_FN double operator()(int i) const { return x[i]; }
+};
+
+struct Above {
+    View<const double> x;
+    double least;
+    GF_FN bool operator()(int i) const { return x[i] > least; }
 };
 
 Buffer<double> numbers(int n)
@@ -81,6 +88,46 @@ TEST_CASE("sums and maxima have the same bits for any number of threads")
     }
     CHECK(parallel_sum(d, 0, Entry{}) == 0.0);
     set_threads(2);
+}
+
+TEST_CASE("few out of many come in their order, for any number of threads")
+{
+    const Device d = default_device();
+    for (const int n : {0, 1, 255, 256, 257, 100003}) {
+        const Buffer<double> x = numbers(n);
+        for (const double above : {-1e300, 0.999e8, 1e300}) {
+            std::vector<std::int32_t> expected;
+            for (int i = 0; i < n; ++i) {
+                if (x[i] > above) expected.push_back(i);
+            }
+            for (const int t : {1, 2, 5}) {
+                set_threads(t);
+                const Buffer<std::int32_t> found = select(d, n, Above{x.read(d), above});
+                CHECK(found.host() == expected);
+            }
+        }
+    }
+    set_threads(2);
+}
+
+TEST_CASE("a buffer that is extended keeps what a device wrote; new entries are zero")
+{
+    const Device d = default_device();
+    const Buffer<double> x = numbers(1000);
+    Buffer<double> y;
+    y.resize(10);
+    for (const int n : {10, 11, 12, 500, 501, 1000}) {
+        y.extend(n);
+        CHECK(y.read(d).size == n);
+        Buffer<double> seen = y;
+        CHECK((n == 10 || seen[n - 1] == 0.0));
+        parallel_for(d, n, Square{x.read(d), y.write(d)});
+        CHECK(y[n - 1] == x[n - 1] * x[n - 1] + 1.0);
+        parallel_for(d, n, Square{x.read(d), y.write(d)});  // the device's is the newest
+    }
+    bool right = true;
+    for (int i = 0; i < 1000; ++i) right = right && y[i] == x[i] * x[i] + 1.0;
+    CHECK(right);
 }
 
 TEST_CASE("a buffer shows what was written last, copies are its own")

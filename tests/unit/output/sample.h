@@ -66,6 +66,7 @@ inline void add_interface(State& state, const SharedFace& face, int a, int b)
     bonds.normal_stiffness.host()[i] = 4e14;
     bonds.shear_stiffness.host()[i] = 2e14;
     bonds.failure_time.host()[i] = bonds.first_damage_time.host()[i] = -1.0;
+    bonds.history.host()[i] = no_history::none;
     for (const Vec3& corner : face.polygon) {
         const Vec3 on_a = rotate_back(bodies.orientation[a], corner - bodies.position[a]);
         const Vec3 on_b = rotate_back(bodies.orientation[b], corner - bodies.position[b]);
@@ -86,8 +87,10 @@ inline void add_contact(State& state, int a, int b)
     Contacts& contacts = state.contacts;
     const int i = contacts.size();
     contacts.for_each_array([&](const char*, auto& array) { array.resize(i + 1); });
-    contacts.a.host()[i] = a;
-    contacts.b.host()[i] = b;
+    state.pairs.for_each_array([&](const char*, auto& array) { array.resize(i + 1); });
+    state.pairs.a.host()[i] = contacts.a.host()[i] = a;
+    state.pairs.b.host()[i] = contacts.b.host()[i] = b;
+    state.pairs.contact.host()[i] = contacts.pair.host()[i] = i;
     contacts.active.host()[i] = 1;
     contacts.normal_force.host()[i] = 25.0;
     contacts.point.host()[i] = {{0, -1, 0}, {0, -side, 0}, 1e-15, 0.0, 1e-22, 1e-8, 0.0, 1e-7};

@@ -55,8 +55,10 @@ bool equal_states(State& a, State& b)
     compare(a.bodies, b.bodies);
     compare(a.interfaces, b.interfaces);
     compare(a.points, b.points);
+    compare(a.histories, b.histories);
     compare(a.corners, b.corners);
     compare(a.parallels, b.parallels);
+    compare(a.pairs, b.pairs);
     compare(a.contacts, b.contacts);
     return equal;
 }
@@ -379,8 +381,10 @@ TEST_CASE("a checkpoint comes back bit for bit", "[output][checkpoint]")
     check_same(w.state.bodies, other.state.bodies);
     check_same(w.state.interfaces, other.state.interfaces);
     check_same(w.state.points, other.state.points);
+    check_same(w.state.histories, other.state.histories);
     check_same(w.state.corners, other.state.corners);
     check_same(w.state.parallels, other.state.parallels);
+    check_same(w.state.pairs, other.state.pairs);
     check_same(w.state.contacts, other.state.contacts);
     CHECK(equal_states(w.state, other.state));
     CHECK(same_bits(w.model.wall_motion, other.model.wall_motion));
@@ -398,9 +402,11 @@ TEST_CASE("every array of the state is on the list that checkpoints walk", "[out
     check_all(Bodies{});
     check_all(InterfaceBonds{});
     check_all(InterfacePoints{});
+    check_all(PointHistories{});
     check_all(InterfaceCorners{});
     check_all(ParallelBonds{});
     check_all(SphereBonds{});
+    check_all(CandidatePairs{});
     check_all(Contacts{});
     check_all(Shapes{});
 }
