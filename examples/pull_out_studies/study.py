@@ -34,7 +34,7 @@ LENGTHS = ("5/0.5", "8/0.5", "9/0.5", "10/0.5", "11/0.5", "12/0.5", "15", "20", 
 # Of the input, where --set has no name for them: bonds have none.
 INTERFACE, MORE_OF_INTERFACE, INSTEAD = "shear stiffness of the interface", "more of the interface", "texts for others"
 PATH_SPHERES = (1.0, 0.5)
-BOND_CASES = {"1": 0.01, "0.5": 0.04, "dressler": 0.04}  # damage_step
+BOND_CASES = {"1": 0.01, "0.5": 0.08, "dressler": 0.08}  # damage_step
 LAWS = ['between = ["matrix", "matrix"]\nlaw     = "parallel"', 'between = ["fibre", "fibre"]\nlaw     = "parallel"']
 CHAIN = ('generator = "chain"', 'fibre     = { from = [0, 0, "-15 m"], to = [0, 0, "15 m"], radius = "1 m" }')
 # Table 4-1, spheres of 0.5 m; patches along the lines of centres, all of one area; surface of a cylinder of 2 m.
