@@ -35,7 +35,7 @@ HistoryTable rubbing_path(const std::string& damage_step)
                                 "/out' -q --no-report --threads 1 --set parts.matrix.diameter=1 "
                                 "--set parts.fibre.diameter=0.8 --set parts.fibre.fibre.from='[0, 0, -15.2]' "
                                 "--set parts.fibre.fibre.to='[0, 0, 15.2]' --set test.stop.time=1000 "
-                                "--set test.damage_step=" +
+                                "--set test.relaxed=1e-5 --set test.damage_step=" +
                                 damage_step + " > /dev/null";
     CAPTURE(command);
     REQUIRE(std::system(command.c_str()) == 0);
@@ -47,13 +47,14 @@ HistoryTable rubbing_path(const std::string& damage_step)
 
 TEST_CASE("a path with friction is that of elasticity, back where the fibre slips back too", "[slow]")
 {
-    // Events of 0.02. Without friction the peak is 0.5 % above that of elasticity and no state farther off than 1.3 %
-    // of its curve (docs/theory/pull_out.md, 5): spheres of 1 m can do no better.
-    const HistoryTable run = rubbing_path("0.02");
+    // Events of 0.04: off by 0.94 % in the mean, with 0.02 by 0.76 %, with 0.01 by 0.78 %; spheres of 1 m can do no
+    // better. Without friction the peak is 0.5 % above that of elasticity and no state farther off than 1.3 % of its
+    // curve (docs/theory/pull_out.md, 5).
+    const HistoryTable run = rubbing_path("0.04");
     const HistoryTable exact =
         read_history_csv(std::string(GF_SOURCE_DIR) + "/tests/data/fibre/elastic_path_friction_30.21m.csv");
     const std::vector<double>&damage = run.column("mean_damage"), &known = exact.column("mean_damage");
-    REQUIRE(damage.size() > 50);
+    REQUIRE(damage.size() > 30);
     CHECK(damage.back() > 0.998);
     for (const char* name : {"end_stress_Pa", "end_slip_m", "end_displacement_m"}) {
         const std::vector<double>&found = run.column(name), &reference = exact.column(name);
