@@ -8,8 +8,8 @@ elastic: shear of the interface and stress of the fibre before it yields, for ea
 sphere size; root mean square difference over the range of the reference, at equal load. path: the whole path with spheres
 of 1 and 0.5 m. lengths: the whole path of fibres of 5 to 50 m, a case is "length" (spheres of 1 m) or "length/diameter".
 speed: peak at four speeds of the grip. friction: the path with friction of what is broken, and sliding to the end under
-constant friction and under pressure. bonds: spring-dashpots against parallel bonds, a case is a diameter or "dressler", a
-fibre of spheres of the lattice and the bonds of Dressler (2020), table 4-1.
+constant friction and under pressure. bonds: spring-dashpots against parallel bonds, a case is "diameter", "diameter/shear
+ratio of the matrix" or "dressler": a fibre of spheres of the lattice and the bonds of Dressler (2020), table 4-1.
 With --keep what a folder has is not run again. Tables go to standard output and to the folder.
 """
 import argparse, json, math, pathlib, subprocess, sys, time
@@ -34,7 +34,7 @@ LENGTHS = ("5/0.5", "8/0.5", "9/0.5", "10/0.5", "11/0.5", "12/0.5", "15", "20", 
 # Of the input, where --set has no name for them: bonds have none.
 INTERFACE, MORE_OF_INTERFACE, INSTEAD = "shear stiffness of the interface", "more of the interface", "texts for others"
 PATH_SPHERES = (1.0, 0.5)
-BOND_CASES = {"1": 0.01, "0.5": 0.08, "dressler": 0.08}  # damage_step
+BOND_CASES = {"1": 0.01, "0.5": 0.08, "0.5/0.01": 0.08, "dressler": 0.08}  # damage_step
 LAWS = ['between = ["matrix", "matrix"]\nlaw     = "parallel"', 'between = ["fibre", "fibre"]\nlaw     = "parallel"']
 CHAIN = ('generator = "chain"', 'fibre     = { from = [0, 0, "-15 m"], to = [0, 0, "15 m"], radius = "1 m" }')
 # Table 4-1, spheres of 0.5 m; patches along the lines of centres, all of one area; surface of a cylinder of 2 m.
@@ -236,9 +236,10 @@ def friction_path(args, say):
 
 def bond_settings(case, law):
     """With this law in the matrix; of Dressler in the fibre too."""
-    settings = settings_of(5e9, 30, K0, 0.5 if case == "dressler" else float(case))
+    d, _, ratio = case.replace("dressler", "0.5").partition("/")
+    settings = settings_of(5e9, 30, K0, float(d))
     told = [text.replace('"parallel"', f'"{law}"') for text in LAWS]
-    settings[INSTEAD] = [(LAWS[0], told[0])]
+    settings[INSTEAD] = [(LAWS[0], told[0] + (f"\nshear_ratio = {ratio}" if ratio else ""))]
     if case == "dressler":
         for key in [k for k in settings if k.startswith("parts.fibre.")]:
             settings.pop(key)
@@ -259,10 +260,10 @@ def bonds(args, say):
         found, took = [], 0.0
         for law in ("parallel", "spring"):
             settings = bond_settings(case, law)
-            settings.update({"test.stop.time": 100000, "test.damage_step": BOND_CASES[case]})
+            settings.update({"test.stop.time": 100000, "test.damage_step": BOND_CASES.get(case, 0.08)})
             if case != "1":
                 settings["test.stop.damage"] = 0.82  # where Dressler stops
-            out, seconds = run(args, f"bonds_{law}_{case}", settings)
+            out, seconds = run(args, f"bonds_{law}_{case}".replace("/", "_"), settings)
             took += seconds
             profiles = {}
             for r in table(out / "profiles.csv"):
