@@ -8,7 +8,8 @@ elastic: shear of the interface and stress of the fibre before it yields, for ea
 sphere size; root mean square difference over the range of the reference, at equal load. path: the whole path with spheres
 of 1 and 0.5 m. lengths: the whole path of fibres of 5 to 50 m, a case is "length" (spheres of 1 m) or "length/diameter".
 speed: peak at four speeds of the grip. friction: the path with friction of what is broken, and sliding to the end under
-constant friction and under pressure. bonds: the path with spring-dashpots in the matrix against parallel bonds.
+constant friction and under pressure. bonds: spring-dashpots against parallel bonds, a case is "diameter", "diameter/shear
+ratio of the matrix" or "dressler": a fibre of spheres of the lattice and the bonds of Dressler (2020), table 4-1.
 With --keep what a folder has is not run again. Tables go to standard output and to the folder.
 """
 import argparse, json, math, pathlib, subprocess, sys, time
@@ -31,8 +32,14 @@ ELASTIC = {
 REFERENCE = {"1:10": "1:10 d=0.5", "d=0.7": "1:10 d=0.7", "d=1": "1:10 d=1"}  # names in elastic_cases.csv
 LENGTHS = ("5/0.5", "8/0.5", "9/0.5", "10/0.5", "11/0.5", "12/0.5", "15", "20", "25", "30", "35", "40", "50")
 # Of the input, where --set has no name for them: bonds have none.
-INTERFACE, MORE_OF_INTERFACE, MATRIX_LAW = "shear stiffness of the interface", "more of the interface", "law of the matrix"
+INTERFACE, MORE_OF_INTERFACE, INSTEAD = "shear stiffness of the interface", "more of the interface", "texts for others"
 PATH_SPHERES = (1.0, 0.5)
+BOND_CASES = {"1": 0.01, "0.5": 0.08, "0.5/0.01": 0.08, "dressler": 0.08}  # damage_step
+LAWS = ['between = ["matrix", "matrix"]\nlaw     = "parallel"', 'between = ["fibre", "fibre"]\nlaw     = "parallel"']
+CHAIN = ('generator = "chain"', 'fibre     = { from = [0, 0, "-15 m"], to = [0, 0, "15 m"], radius = "1 m" }')
+# Table 4-1, spheres of 0.5 m; patches along the lines of centres, all of one area; surface of a cylinder of 2 m.
+DRESSLER_MATRIX, DRESSLER_FIBRE, DRESSLER_RATIO = 7.40e9, 7.40e10, 0.01
+TAKEN = ('generator = "taken"', 'region    = { shape = "cylinder", diameter = "2 m", height = "40 m", axis = "z" }')
 TURNS = (("peak_stress_Pa", 1e6), ("largest_exit_slip_m", 1e-3), ("stress_at_largest_slip_Pa", 1e6),
          ("largest_end_displacement_m", 1e-3), ("stress_at_largest_displacement_Pa", 1e6))
 EXACT_TURNS = ("max_stress_Pa", "max_slip_m", "stress_at_max_slip_Pa", "max_displacement_m",
@@ -48,7 +55,11 @@ def run(args, name, settings):
     out, case = pathlib.Path(args.out) / name, pathlib.Path(args.out) / f"{name}.toml"
     text = (HERE / "pull_out_studies.toml").read_text()
     text = text.replace('"1e9 Pa/m"', f'"{settings.pop(INTERFACE)} Pa/m"' + settings.pop(MORE_OF_INTERFACE, ""))
-    case.write_text(text.replace('"parallel"', f'"{settings.pop(MATRIX_LAW, "parallel")}"', 1))
+    for old, new in settings.pop(INSTEAD, []):
+        if text.count(old) == 0:
+            sys.exit(f"pull_out_studies.toml has no {old}")
+        text = text.replace(old, new, 1)
+    case.write_text(text)
     command = [args.program, "run", str(case), "--out", str(out), "--force", "-q", "--threads", str(args.threads)]
     for key, value in settings.items():
         command += ["--set", f"{key}={json.dumps(value)}"]
@@ -223,32 +234,53 @@ def friction_path(args, say):
             f"{1e3 * own[2]:.3f} ({turns[2] / own[2] - 1:+.1%}) | " + " | ".join(f"{x:.4f}" for x in differences + far) + " | |")
 
 
+def bond_settings(case, law):
+    """With this law in the matrix; of Dressler in the fibre too."""
+    d, _, ratio = case.replace("dressler", "0.5").partition("/")
+    settings = settings_of(5e9, 30, K0, float(d))
+    told = [text.replace('"parallel"', f'"{law}"') for text in LAWS]
+    settings[INSTEAD] = [(LAWS[0], told[0] + (f"\nshear_ratio = {ratio}" if ratio else ""))]
+    if case == "dressler":
+        for key in [k for k in settings if k.startswith("parts.fibre.")]:
+            settings.pop(key)
+        own = [f"{text}\nnormal_stiffness = {k}\nshear_ratio = {DRESSLER_RATIO}"
+               for text, k in zip(told, (DRESSLER_MATRIX, DRESSLER_FIBRE))]
+        settings[INSTEAD] = [*zip(LAWS, own), *zip(CHAIN, TAKEN), ('diameter  = "0.4 m"\n', "")]
+        settings[MORE_OF_INTERFACE] = '\nframe = "branch"\nreach = "all"'
+    return settings
+
+
 def bonds(args, say):
-    """Profiles over the largest value and over the range of those with parallel bonds; without damage at equal load."""
-    found = {}
-    for law in ("parallel", "spring"):
-        settings = settings_of(5e9, 30, K0, 1.0)
-        settings.update({"test.stop.time": 100000, "test.damage_step": 0.01, MATRIX_LAW: law})
-        out, _ = run(args, f"bonds_{law}", settings)
-        profiles = {}
-        for r in table(out / "profiles.csv"):
-            profiles.setdefault(float(r["mean_damage"]), []).append((float(r["tau_Pa"]), float(r["sigma_f_Pa"])))
-        found[law] = json.loads((out / "summary.json").read_text())["test"], profiles
-    say("| mean damage: parallel | spring-dashpot | tau, over the range | over the largest | sigma_f, over the range | over the "
-        "largest |")
-    say("|" + 6 * "---|")
-    for (damage, ours), (other_damage, theirs) in zip(found["parallel"][1].items(), found["spring"][1].items()):
-        cells = []
-        for k in (0, 1):
-            here, there = [r[k] for r in ours], [r[k] for r in theirs]
+    """Profiles of spring-dashpots over the range and the largest value of those of parallel bonds; without damage at equal load."""
+    say("| case | mean damage: parallel | spring-dashpot | tau, over the range | over the largest | sigma_f, over the range | over "
+        "the largest | tau without the outermost layers, over the range | s |")
+    say("|" + 9 * "---|")
+    tests = []
+    for case in args.cases or BOND_CASES:
+        found, took = [], 0.0
+        for law in ("parallel", "spring"):
+            settings = bond_settings(case, law)
+            settings.update({"test.stop.time": 100000, "test.damage_step": BOND_CASES.get(case, 0.08)})
+            if case != "1":
+                settings["test.stop.damage"] = 0.82  # where Dressler stops
+            out, seconds = run(args, f"bonds_{law}_{case}".replace("/", "_"), settings)
+            took += seconds
+            profiles = {}
+            for r in table(out / "profiles.csv"):
+                profiles.setdefault(float(r["mean_damage"]), []).append((float(r["tau_Pa"]), float(r["sigma_f_Pa"])))
+            found.append(profiles)
+            tests.append((case, law, json.loads((out / "summary.json").read_text())["test"]))
+        for (damage, ours), (other_damage, theirs) in zip(found[0].items(), found[1].items()):
             scale = ours[-1][1] / theirs[-1][1] if damage == 0 else 1.0
-            for span in (max(here) - min(here), max(here)):
-                cells.append(nrmse(zip((scale * x for x in there), here), span))
-        say(f"| {damage:.3f} | {other_damage:.3f} | " + " | ".join(f"{x:.4f}" for x in cells) + " |")
-    say("\n| bonds | " + " | ".join(key for key, _ in TURNS) + " |")
-    say("|" + 6 * "---|")
-    for law, (test, _) in found.items():
-        say(f"| {law} | " + " | ".join(f"{test[key] / unit:.4f}" for key, unit in TURNS) + " |")
+            columns = [([r[k] for r in ours], [scale * r[k] for r in theirs]) for k in (0, 1)]
+            spans = [(max(here) - min(here), max(here)) for here, _ in columns]
+            cells = [nrmse(zip(there, here), span) for (here, there), both in zip(columns, spans) for span in both]
+            cells.append(nrmse(list(zip(columns[0][1], columns[0][0]))[1:-1], spans[0][0]))
+            say(f"| {case} | {damage:.3f} | {other_damage:.3f} | " + " | ".join(f"{x:.4f}" for x in cells) + f" | {took:.0f} |")
+    say("\n| case | bonds | " + " | ".join(key for key, _ in TURNS) + " |")
+    say("|" + 7 * "---|")
+    for case, law, test in tests:
+        say(f"| {case} | {law} | " + " | ".join(f"{test[key] / unit:.4f}" for key, unit in TURNS) + " |")
 
 
 def main():

@@ -14,15 +14,8 @@ namespace grainfrac {
 
 namespace {
 
-/// A state is on the failure surface within this share.
-constexpr double on_surface = 1e-3;
-/// Without friction one scaling gets there; what turned asks for another.
+/// One scaling gets there; what turned asks for another.
 constexpr int most_scalings = 12;
-/// With friction the grip moves on or back, as the last two moves say (secant rule), rather less: a move too far lets
-/// the friction act the other way. It is enough to get this near.
-constexpr double near_surface = 3e-3, first_share = 0.4, not_beyond = 0.8, most_overdone = 10.0;
-constexpr double most_move = 0.1;  ///< over what is there
-constexpr int most_moves = 100;
 /// Towards the end events take this share of what is left, until this little is left.
 constexpr double last_steps = 0.3, nothing_left = 2e-3;
 /// Once this little is left, some patches may be gone around the fibre and others not, so that it can turn freely: what
@@ -31,7 +24,6 @@ constexpr double little_left = 0.02;
 constexpr int steps_for_little = 20000;
 /// An interface with this share of it left, or less, has nothing left to soften.
 constexpr double all_broken = 1.0 - 1e-9;
-constexpr int bisections = 60;
 /// Share of a patch that has slid out of the matrix until the next step retires it: without weight it would have
 /// neither slip nor damage.
 constexpr double nothing_to_rub = 1e-9;
@@ -39,36 +31,14 @@ constexpr double nothing_to_rub = 1e-9;
 constexpr double same_pull = 1e-4;
 constexpr int most_draws = 30;
 
-/// How far beyond the failure surface, at `surface` times the present jumps, the event goes that brings the mean damage
-/// to `wanted`, or breaks what is left.
-double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double surface,
-                 double wanted)
-{
-    double low = 0.0, high = 1.0;
-    while (mean_damage_at(model, state, interfaces, surface * (1.0 + high)) < wanted && high < 1e6) high *= 2.0;
-    for (int k = 0; k < bisections; ++k) {
-        const double middle = 0.5 * (low + high);
-        (mean_damage_at(model, state, interfaces, surface * (1.0 + middle)) < wanted ? low : high) = middle;
-    }
-    return high;
-}
-
-/// Whether something has begun to soften that has friction.
-bool rubs(const Model& model, const State& state, const std::vector<int>& interfaces)
+/// Whether what softens has friction; `begun`: only what has begun to.
+bool rubs(const Model& model, const State& state, const std::vector<int>& interfaces, bool begun)
 {
     const InterfaceBonds& f = state.interfaces;
     return std::any_of(interfaces.begin(), interfaces.end(), [&](int i) {
         const InterfaceLaw law = model.interface_laws[f.law[i]];
-        return f.damage[i] > 0.0 && law.friction_cap(f.normal_stiffness[i], f.pressure_at_rest[i]) > 0.0;
+        return (f.damage[i] > 0.0 || !begun) && law.friction_cap(f.normal_stiffness[i], f.pressure_at_rest[i]) > 0.0;
     });
-}
-
-/// Forces and energies of the state as it is.
-void step_in_place(const Model& model, State& state)
-{
-    Model frozen = model;
-    frozen.fracture_active = false;
-    step(frozen, state, 0.0);
 }
 
 }  // namespace
@@ -144,13 +114,22 @@ void PullOutPath::shorten(State& state)
 /// Of a move that the grip alone did not make: what springs take up at once and friction loses is its work.
 void PullOutPath::book_move(Model& model, State& state, const Ledger& before)
 {
-    step_in_place(model, state);
+    find_forces(model, state);
     const Ledger after = energy_ledger(model, state);
     Bodies& b = state.bodies;
     int grip = 0;
     while (b.wall[grip] != pull_out_.grip_wall) ++grip;
     b.external_work.at(grip) += before.residual() - after.residual();
     remember_grip(state);
+}
+
+/// Forces and energies of the state as it is.
+void PullOutPath::find_forces(const Model& model, State& state)
+{
+    Model frozen = model;
+    frozen.fracture_active = false;
+    if (friction_) friction_->put_back(model.device, state);
+    step(frozen, state, 0.0);
 }
 
 void PullOutPath::remember_grip(const State& state)
@@ -193,9 +172,9 @@ void PullOutPath::book_work(State& state)
 
 bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>& interrupted)
 {
-    step_in_place(model, state);  // the forces are those of before the move
+    find_forces(model, state);    // the forces are those of before the move
     const HeldBonds hold(model);  // what it goes through on the way is no load of theirs
-    last_ = relaxation_.relax(model, state, settings_.relax, interrupted);
+    last_ = relaxation_.relax(model, state, settings_.relax, interrupted, friction_ ? &*friction_ : nullptr);
     book_work(state);
     return last_.at_rest;
 }
@@ -203,42 +182,10 @@ bool PullOutPath::relax(Model& model, State& state, const std::function<bool()>&
 PullOutPath::Found PullOutPath::to_softening(Model& model, State& state, const std::function<bool()>& interrupted)
 {
     const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
-    if (rubs(model, state, interfaces)) return creep_to_softening(model, state, interfaces, interrupted);
     for (int k = 0; k < most_scalings; ++k) {
         const double factor = factor_to_softening(model, state, interfaces);
-        if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface) return Found::equilibrium;
+        if (factor == 0.0 || std::fabs(factor - 1.0) < on_surface_) return Found::equilibrium;
         scale(model, state, factor);
-        if (!relax(model, state, interrupted)) return Found::not_at_rest;
-    }
-    return Found::not_softening;
-}
-
-/// Friction remembers each way back: no further on than must be. A little too far, and the interface softens for it;
-/// back it goes where that would be another event's damage.
-PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
-                                                   const std::function<bool()>& interrupted)
-{
-    const double most_damage = mean_damage(state, interfaces) + settings_.damage_step;
-    double before = 0.0, moved = 0.0;  // what was missing at the last move, and the move, over what is there
-    for (int k = 0; k < most_moves; ++k) {
-        const double factor = factor_to_softening(model, state, interfaces), missing = factor - 1.0;
-        if (factor == 0.0 || std::fabs(missing) < near_surface) return Found::equilibrium;
-        if (missing < 0.0 && mean_damage_at(model, state, interfaces, 1.0) <= most_damage) {
-            soften(model, state, interfaces, 1.0);
-            before = 0.0;
-        } else {
-            double move = first_share * missing;
-            if (missing * before > 0.0) {
-                const double wanted = not_beyond * moved * missing / (before - missing);
-                move *= std::clamp(wanted / move, 1.0 / most_overdone, most_overdone);
-            }
-            move = std::clamp(move, -most_move, most_move);
-            before = missing;
-            moved = move;
-            const Ledger held = energy_ledger(model, state);
-            scale(model, state, 1.0 + move);
-            book_move(model, state, held);
-        }
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
     }
     return Found::not_softening;
@@ -256,7 +203,7 @@ void PullOutPath::go_on(Model& model, State& state, const std::vector<int>& inte
     };
     move();
     soften(model, state, interfaces, half);
-    step_in_place(model, state);
+    find_forces(model, state);
     move();
 }
 
@@ -286,7 +233,7 @@ bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector
                                    const std::function<bool()>& interrupted)
 {
     double share = most_used_bond(model, state).share, off = share - 1.0;
-    if (off <= on_surface || rubs(model, state, interfaces)) return true;
+    if (off <= on_surface_ || rubs(model, state, interfaces, true)) return true;
     const State too_far = state;
     const Relaxation relaxation_there = relaxation_;
     const Relaxed last_there = last_;
@@ -296,7 +243,7 @@ bool PullOutPath::back_to_strength(Model& model, State& state, const std::vector
         book_move(model, state, before);
         if (!relax(model, state, interrupted)) return false;
         share = most_used_bond(model, state).share;
-        if (std::fabs(share - 1.0) <= on_surface) return true;
+        if (std::fabs(share - 1.0) <= on_surface_) return true;
         if (share <= 0.0 || std::fabs(share - 1.0) > std::fabs(off)) break;
         off = share - 1.0;
     }
@@ -315,7 +262,7 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
     };
     const auto rested = [&](bool ok) { return counted(ok ? Found::equilibrium : Found::not_at_rest); };
     const std::vector<int> interfaces = fibre_interfaces(pull_out_, state);
-    if (const MostUsedBond most = most_used_bond(model, state); most.share >= 1.0 - on_surface)
+    if (const MostUsedBond most = most_used_bond(model, state); most.share >= 1.0 - on_surface_)
         return rested(break_bonds(model, state, most, interrupted));
     if (mean_damage(state, interfaces) >= all_broken) {
         if (!settings_.slides) return Found::end;
@@ -349,7 +296,7 @@ PullOutPath::Found PullOutPath::next(Model& model, State& state, const std::func
         if (!lost || left >= little_left || (interrupted && interrupted())) return counted(found);
     }
     soften(model, state, interfaces, 1e9);
-    step_in_place(model, state);
+    find_forces(model, state);
     const bool broken = mean_damage(state, interfaces) >= all_broken;
     return settings_.slides && broken ? next(model, state, interrupted) : Found::end;
 }
@@ -376,11 +323,7 @@ PullOutPath::Found PullOutPath::next_event(Model& model, State& state, const std
 {
     const double now = mean_damage(state, interfaces), surface = factor_to_softening(model, state, interfaces);
     if (surface == 0.0) return Found::end;  // nothing can soften
-    if (rubs(model, state, interfaces)) {   // on and back would turn friction
-        soften(model, state, interfaces, 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now)));
-        if (!relax(model, state, interrupted)) return Found::not_at_rest;
-        return to_softening(model, state, interrupted);
-    }
+    if (rubs(model, state, interfaces, false)) return event_with_friction(model, state, interfaces, interrupted);
     const double half = std::sqrt(1.0 + overshoot(model, state, interfaces, surface, next_damage(now)));
     scale(model, state, surface * half);  // at rest still, but for what turned
     book_scaling(state, surface * half);
@@ -397,13 +340,22 @@ double PullOutPath::next_damage(double now) const
 
 /// With the first point at its strength the others of the softening zone are a little below theirs, since damage comes
 /// by steps. The state that stands for this damage is that at which the next of it releases what it takes.
+double PullOutPath::factor_to_path(const Model& model, const State& state, const std::vector<int>& interfaces) const
+{
+    const double now = mean_damage(state, interfaces);
+    if (1.0 - now < nothing_left) {
+        const double factor = factor_to_softening(model, state, interfaces);
+        return factor > 0.0 ? factor : 1.0;
+    }
+    const double reach = 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now));
+    return factor_to_balance(model, state, interfaces, reach);
+}
+
 PullOutPath::Found PullOutPath::balance(Model& model, State& state, const std::vector<int>& interfaces,
                                         const std::function<bool()>& interrupted)
 {
-    const double now = mean_damage(state, interfaces);
-    if (rubs(model, state, interfaces) || 1.0 - now < nothing_left) return Found::equilibrium;
-    const double reach = 1.0 + overshoot(model, state, interfaces, 1.0, next_damage(now));
-    scale(model, state, factor_to_balance(model, state, interfaces, reach));
+    if (1.0 - mean_damage(state, interfaces) < nothing_left) return Found::equilibrium;
+    scale(model, state, factor_to_path(model, state, interfaces));
     return relax(model, state, interrupted) ? Found::equilibrium : Found::not_at_rest;
 }
 

@@ -12,6 +12,7 @@
 
 #include "experiment/pull_out.h"
 #include "fracture/bond_strength.h"
+#include "fracture/held_friction.h"
 #include "motion/energy.h"
 #include "motion/relax.h"
 
@@ -42,8 +43,9 @@ public:
     template <class Visit>  // all that it remembers from one state to the next
     void for_each_member(Visit&& visit)
     {
-        auto& [pull_out, settings, relaxation, last, force_before, position_before, started] = *this;
+        auto& [pull_out, settings, relaxation, last, force_before, position_before, started, friction] = *this;
         (void)pull_out;                                  // the experiment's
+        (void)friction;                                  // none between two states
         visit("may_fracture", settings.relax.fracture);  // the rest is the input's
         visit("relaxation", relaxation);
         visit("last", last);
@@ -53,23 +55,29 @@ public:
     }
 
 private:
+    static constexpr double on_surface_ = 1e-3;  ///< a state is on the failure surface within this share
+
     bool relax(Model& model, State& state, const std::function<bool()>& interrupted);
     Found to_softening(Model& model, State& state, const std::function<bool()>& interrupted);
-    Found creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
-                             const std::function<bool()>& interrupted);
     Found next_event(Model& model, State& state, const std::vector<int>& interfaces,
                      const std::function<bool()>& interrupted);
     Found balance(Model& model, State& state, const std::vector<int>& interfaces,
                   const std::function<bool()>& interrupted);
+    Found event_with_friction(Model& model, State& state, const std::vector<int>& interfaces,
+                              const std::function<bool()>& interrupted);
+    Found balance_with_friction(Model& model, State& state, const std::vector<int>& interfaces,
+                                const std::function<bool()>& interrupted);
     bool back_to_strength(Model& model, State& state, const std::vector<int>& interfaces,
                           const std::function<bool()>& interrupted);
     bool break_bonds(Model& model, State& state, MostUsedBond most, const std::function<bool()>& interrupted);
     double next_damage(double now) const;
+    double factor_to_path(const Model& model, const State& state, const std::vector<int>& interfaces) const;
     void go_on(Model& model, State& state, const std::vector<int>& interfaces, double factor);
     bool draw(Model& model, State& state, const std::vector<int>& interfaces, const std::function<bool()>& interrupted);
     void scale(const Model& model, State& state, double factor);
     void shift_fibre(Model& model, State& state, double by);
     void shorten(State& state);
+    void find_forces(const Model& model, State& state);
     void book_move(Model& model, State& state, const Ledger& before);
     void remember_grip(const State& state);
     void book_scaling(State& state, double factor);
@@ -81,6 +89,7 @@ private:
     Relaxed last_;
     std::vector<Vec3> force_before_, position_before_;  // of the grip, for the work of its next move
     bool started_ = false;
+    std::optional<HeldFriction> friction_;  // of the event that is under way
 };
 
 /// The next state of the path. Interrupted, none, and path, model and state are what they were: a relaxation is not

@@ -11,6 +11,7 @@ namespace grainfrac {
 
 namespace {
 
+constexpr int bisections = 60;
 /// A friction spring is that much longer than the way that it is to go back, so that it loses one in as many.
 constexpr double soft_springs = 1e4;
 
@@ -120,6 +121,18 @@ double mean_damage_at(const Model& model, const State& state, const std::vector<
         area += state.interfaces.area[i];
     }
     return area > 0.0 ? damaged / area : 0.0;
+}
+
+double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double surface,
+                 double wanted)
+{
+    double low = 0.0, high = 1.0;
+    while (mean_damage_at(model, state, interfaces, surface * (1.0 + high)) < wanted && high < 1e6) high *= 2.0;
+    for (int k = 0; k < bisections; ++k) {
+        const double middle = 0.5 * (low + high);
+        (mean_damage_at(model, state, interfaces, surface * (1.0 + middle)) < wanted ? low : high) = middle;
+    }
+    return high;
 }
 
 void soften(const Model& model, State& state, const std::vector<int>& interfaces, double reach)

@@ -23,6 +23,11 @@ double mean_damage(const State& state, const std::vector<int>& interfaces);
 /// What it would be with the present jumps times `reach`.
 double mean_damage_at(const Model& model, const State& state, const std::vector<int>& interfaces, double reach);
 
+/// How far beyond `surface` times the present jumps the event goes, as a share of them, that brings the mean damage to
+/// `wanted`, or breaks what is left [-].
+double overshoot(const Model& model, const State& state, const std::vector<int>& interfaces, double surface,
+                 double wanted);
+
 /// The damage that the present jumps times `reach` cause. What the points release at the present jumps and the law
 /// does not count as fracture energy goes to inserted work, so that the account closes. Call bond_forces afterwards.
 void soften(const Model& model, State& state, const std::vector<int>& interfaces, double reach);

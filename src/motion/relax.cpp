@@ -204,7 +204,7 @@ void Relaxation::renew_masses(const Model& model, const State& state)
 }
 
 Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& settings,
-                          const std::function<bool()>& interrupted)
+                          const std::function<bool()>& interrupted, const HeldFriction* friction)
 {
     stop_motion(model, state);
     const Borrowed borrowed(model, state, masses_, settings.fracture);
@@ -225,6 +225,7 @@ Relaxed Relaxation::relax(Model& model, State& state, const RelaxSettings& setti
                 parallel_for(d, b.size(),
                              KeepForces{b.force.read(d), b.torque.read(d), old_force.write(d), old_torque.write(d)});
             }
+            if (friction != nullptr) friction->put_back(d, state);
             step(model, state, step_length);
             state.time = time;  // what breaks on the way does so at this equilibrium
         }

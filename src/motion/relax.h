@@ -6,6 +6,7 @@
 // meanwhile unless the model says so; friction slides.
 #pragma once
 
+#include "fracture/held_friction.h"
 #include "model/model.h"
 #include "model/state.h"
 #include "motion/time_step.h"
@@ -34,9 +35,9 @@ public:
     /// After a move that changed the arms of forces.
     void renew_masses(const Model& model, const State& state);
     /// Driven bodies stay where they are. Time does not advance, the step count does. `interrupted` is asked now and
-    /// then.
+    /// then. With `friction` what slides does so in one way from where that began, whatever it does in between.
     Relaxed relax(Model& model, State& state, const RelaxSettings& settings,
-                  const std::function<bool()>& interrupted = {});
+                  const std::function<bool()>& interrupted = {}, const HeldFriction* friction = nullptr);
 
     template <class Visit>  // all that it remembers
     void for_each_member(Visit&& visit)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The path of a fibre whose broken interface rubs, by the program, against axisymmetric elasticity.
 #include "io/history_csv.h"
+#include "support/known_curve.h"
 #include "support/workplace.h"
 
 #include <catch2/catch.hpp>
@@ -19,14 +20,7 @@ using grainfrac::read_history_csv;
 
 namespace {
 
-double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at)
-{
-    const auto k = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin(), 1, std::ssize(x) - 1));
-    return y[k - 1] + (at - x[k - 1]) / (x[k] - x[k - 1]) * (y[k] - y[k - 1]);
-}
-
-/// The base case of the studies with spheres of 1 m and a residual shear of 0.1 MPa, to mean damage 0.75.
+/// The base case of the studies with spheres of 1 m and a residual shear of 0.1 MPa.
 HistoryTable rubbing_path(const std::string& damage_step)
 {
     std::ifstream in(std::string(GF_SOURCE_DIR) + "/examples/pull_out_studies/pull_out_studies.toml");
@@ -40,8 +34,8 @@ HistoryTable rubbing_path(const std::string& damage_step)
     const std::string command = std::string(GF_PROGRAM) + " run '" + folder + "/friction.toml' --out '" + folder +
                                 "/out' -q --no-report --threads 1 --set parts.matrix.diameter=1 "
                                 "--set parts.fibre.diameter=0.8 --set parts.fibre.fibre.from='[0, 0, -15.2]' "
-                                "--set parts.fibre.fibre.to='[0, 0, 15.2]' --set test.stop='{damage=0.75}' "
-                                "--set test.damage_step=" +
+                                "--set parts.fibre.fibre.to='[0, 0, 15.2]' --set test.stop.time=1000 "
+                                "--set test.relaxed=1e-5 --set test.damage_step=" +
                                 damage_step + " > /dev/null";
     CAPTURE(command);
     REQUIRE(std::system(command.c_str()) == 0);
@@ -51,31 +45,26 @@ HistoryTable rubbing_path(const std::string& damage_step)
 
 }  // namespace
 
-TEST_CASE("a path with friction is that of elasticity until the fibre slips back", "[slow]")
+TEST_CASE("a path with friction is that of elasticity, back where the fibre slips back too", "[slow]")
 {
-    // Where friction acts, damage is done without going beyond, so that the path is off by the first order of
-    // damage_step (docs/theory/pull_out.md, 4): peak 1.4 % low with 0.04, 0.7 % with 0.02, 0.0 % with 0.01. Beyond mean
-    // damage 0.75 the free part slips back, and the run follows only in part (5).
-    const HistoryTable run = rubbing_path("0.02");
+    // Events of 0.04: off by 0.94 % in the mean, with 0.02 by 0.76 %, with 0.01 by 0.78 %; spheres of 1 m can do no
+    // better. Without friction the peak is 0.5 % above that of elasticity and no state farther off than 1.3 % of its
+    // curve (docs/theory/pull_out.md, 5).
+    const HistoryTable run = rubbing_path("0.04");
     const HistoryTable exact =
         read_history_csv(std::string(GF_SOURCE_DIR) + "/tests/data/fibre/elastic_path_friction_30.21m.csv");
     const std::vector<double>&damage = run.column("mean_damage"), &known = exact.column("mean_damage");
-    REQUIRE(damage.size() > 35);
+    REQUIRE(damage.size() > 30);
+    CHECK(damage.back() > 0.998);
     for (const char* name : {"end_stress_Pa", "end_slip_m", "end_displacement_m"}) {
         const std::vector<double>&found = run.column(name), &reference = exact.column(name);
-        const auto [least, most] = std::minmax_element(reference.begin(), reference.end());
-        double sum = 0.0, worst = 0.0;
-        int states = 0;
-        for (std::size_t i = 0; i < damage.size(); ++i) {
-            if (damage[i] <= 0.0 || damage[i] > 0.75) continue;
-            const double off = (found[i] - interpolated(known, reference, damage[i])) / (*most - *least);
-            sum += off * off;
-            worst = std::max(worst, std::fabs(off));
-            ++states;
-        }
-        INFO(name << ": mean " << std::sqrt(sum / states) << ", worst " << worst);
-        CHECK(std::sqrt(sum / states) < 0.015);
-        CHECK(worst < 0.02);
-        CHECK(*std::max_element(found.begin(), found.end()) == Approx(*most).epsilon(0.015));  // all before 0.75
+        const grainfrac::test::OffCurve off = grainfrac::test::off_curve(known, reference, damage, found);
+        INFO(name << ": mean " << off.mean << ", worst " << off.worst);
+        CHECK(off.mean < 0.01);
+        CHECK(off.worst < 0.02);
+        CHECK(*std::max_element(found.begin(), found.end()) ==
+              Approx(*std::max_element(reference.begin(), reference.end())).epsilon(0.015));
     }
+    // the broken part pushes at last: by elasticity -1.5 MPa at the end of all damage
+    CHECK(run.column("end_stress_Pa").back() < -1e6);
 }

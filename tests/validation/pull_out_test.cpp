@@ -3,6 +3,8 @@
 // (docs/theory/pull_out.md, section 5): the case of Dressler 2020, table 4-3, nothing tuned.
 #include "support/pull_out.h"
 
+#include "support/known_curve.h"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -16,13 +18,6 @@ using namespace grainfrac;
 using namespace grainfrac::test;
 
 namespace {
-
-double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at)
-{
-    const auto above = std::clamp<std::size_t>(
-        static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin()), 1, x.size() - 1);
-    return y[above - 1] + (at - x[above - 1]) / (x[above] - x[above - 1]) * (y[above] - y[above - 1]);
-}
 
 /// Columns of a file of numbers with one line of names.
 std::vector<std::vector<double>> columns_of(const std::string& file)
