@@ -53,6 +53,39 @@ std::string bonds_problem(const char* kind, const Bonds& bonds, int bodies)
     return {};
 }
 
+/// A contact and its pair name each other.
+std::string contacts_problem(const State& state)
+{
+    const CandidatePairs& pairs = state.pairs;
+    const Contacts& c = state.contacts;
+    for (int i = 0; i < c.size(); ++i) {
+        const int pair = c.pair[i];
+        if (pair < 0 || pair >= pairs.size() || pairs.contact[pair] != i)
+            return fmt::format("contact {}: is not that of its pair", i);
+    }
+    for (int i = 0; i < pairs.size(); ++i) {
+        const int contact = pairs.contact[i];
+        if (contact >= c.size() || (contact >= 0 && c.pair[contact] != i))
+            return fmt::format("pair {}: has the contact of another", i);
+    }
+    return {};
+}
+
+/// Entries of tables that are not there.
+std::string tables_problem(const State& state)
+{
+    const InterfaceBonds& f = state.interfaces;
+    for (int i = 0; i < f.size(); ++i) {
+        if (f.history[i] >= 0 && f.history[i] + f.point_begin[i + 1] - f.point_begin[i] > state.histories.size())
+            return fmt::format("interface {}: its points have no history", i);
+    }
+    const SphereBonds& s = state.sphere_bonds;
+    for (int i = 0; i < s.size(); ++i) {
+        if (s.kind[i] < 0 || s.kind[i] >= s.kinds.size()) return fmt::format("sphere bond {}: is of no kind", i);
+    }
+    return {};
+}
+
 class Fnv {
 public:
     void add(const void* data, std::size_t bytes) { hash_ = checksum(data, bytes, hash_); }
@@ -87,12 +120,8 @@ std::string why_not_valid(const Model& model, const State& state)
     if (auto why = bonds_problem("interface", state.interfaces, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("sphere bond", state.sphere_bonds, state.bodies.size()); !why.empty()) return why;
-    const Contacts& c = state.contacts;
-    for (int i = 0; i < c.size(); ++i) {
-        const int pair = c.pair[i];
-        if (pair < 0 || pair >= state.pairs.size() || state.pairs.contact[pair] != i)
-            return fmt::format("contact {}: is not that of its pair", i);
-    }
+    if (auto why = contacts_problem(state); !why.empty()) return why;
+    if (auto why = tables_problem(state); !why.empty()) return why;
     for (const double damage : state.histories.damage.host()) {
         if (!(damage >= 0.0 && damage <= 1.0)) return fmt::format("an interface point has a damage of {}", damage);
     }
