@@ -13,6 +13,10 @@ namespace {
 /// The grip moves on or back as the last two places say (secant rule), at most by this share of what is there.
 constexpr double most_move = 0.3;
 constexpr int most_moves = 30;
+/// A cap that falls with the stress has no potential: there friction remembers each way back, and the grip creeps,
+/// rather less than the last two moves say.
+constexpr double near_surface = 3e-3, first_share = 0.4, not_beyond = 0.8, most_overdone = 10.0, most_creep = 0.1;
+constexpr int most_creeps = 100;
 
 }  // namespace
 
@@ -24,6 +28,10 @@ PullOutPath::Found PullOutPath::event_with_friction(Model& model, State& state, 
 {
     const double wanted = next_damage(mean_damage(state, interfaces));
     soften(model, state, interfaces, 1.0 + overshoot(model, state, interfaces, 1.0, wanted));
+    if (model.fibres_contract) {
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
+        return creep_to_softening(model, state, interfaces, interrupted);
+    }
     friction_.emplace(state);
     const Found found = relax(model, state, interrupted) ? balance_with_friction(model, state, interfaces, interrupted)
                                                          : Found::not_at_rest;
@@ -54,6 +62,37 @@ PullOutPath::Found PullOutPath::balance_with_friction(Model& model, State& state
         lacked = lacks;
         place = next;
         lacks = missing();
+    }
+    return Found::not_softening;
+}
+
+/// No further on than must be. A little too far, and the interface softens for it; back it goes where that would be
+/// another event's damage.
+PullOutPath::Found PullOutPath::creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
+                                                   const std::function<bool()>& interrupted)
+{
+    const double most_damage = mean_damage(state, interfaces) + settings_.damage_step;
+    double before = 0.0, moved = 0.0;  // what was missing at the last move, and the move, over what is there
+    for (int k = 0; k < most_creeps; ++k) {
+        const double factor = factor_to_softening(model, state, interfaces), missing = factor - 1.0;
+        if (factor == 0.0 || std::fabs(missing) < near_surface) return Found::equilibrium;
+        if (missing < 0.0 && mean_damage_at(model, state, interfaces, 1.0) <= most_damage) {
+            soften(model, state, interfaces, 1.0);
+            before = 0.0;
+        } else {
+            double move = first_share * missing;
+            if (missing * before > 0.0) {
+                const double wanted = not_beyond * moved * missing / (before - missing);
+                move *= std::clamp(wanted / move, 1.0 / most_overdone, most_overdone);
+            }
+            move = std::clamp(move, -most_creep, most_creep);
+            before = missing;
+            moved = move;
+            const Ledger held = energy_ledger(model, state);
+            scale(model, state, 1.0 + move);
+            book_move(model, state, held);
+        }
+        if (!relax(model, state, interrupted)) return Found::not_at_rest;
     }
     return Found::not_softening;
 }

@@ -65,6 +65,8 @@ private:
                   const std::function<bool()>& interrupted);
     Found event_with_friction(Model& model, State& state, const std::vector<int>& interfaces,
                               const std::function<bool()>& interrupted);
+    Found creep_to_softening(Model& model, State& state, const std::vector<int>& interfaces,
+                             const std::function<bool()>& interrupted);
     Found balance_with_friction(Model& model, State& state, const std::vector<int>& interfaces,
                                 const std::function<bool()>& interrupted);
     bool back_to_strength(Model& model, State& state, const std::vector<int>& interfaces,
