@@ -35,12 +35,12 @@ if(NOT GF_HAVE_CUDA)
     message(STATUS "CUDA: ${why_no_cuda}; kernels are compiled for the CPU only")
 endif()
 
-# gf_files_that_launch(out FILES...): those of FILES that call parallel_for or its like. Compiled as C++ beside CUDA, such
+# gf_files_that_launch(out FILES...): those of FILES that call parallel_for, select or their like. Compiled as C++ beside CUDA, such
 # a file would not only miss the device: where it shares a kernel with a CUDA file, the linker keeps either version.
 function(gf_files_that_launch out)
     set(found)
     foreach(file IN LISTS ARGN)
-        file(STRINGS ${file} calls REGEX "[^_a-z]parallel_(for|sum|max|reduce)[(<]" LIMIT_COUNT 1)
+        file(STRINGS ${file} calls REGEX "[^_a-z](parallel_(for|sum|max|reduce)|select)[(<]" LIMIT_COUNT 1)
         if(calls)
             list(APPEND found ${file})
         endif()

@@ -62,16 +62,27 @@ inline constexpr double least_facing = 0.3;
 /// Squared sine of the angle from which edges do not count as lying side by side (8 degrees).
 inline constexpr double crossing_sine2 = 1.9e-2;
 
-/// Two cores between which there is a slab: thick `distance`, across the unit `normal` from a to b. What presses is
-/// nearer than `reach` along the normal N of a face, or across an edge d, and farther than the slab is thick:
-///   distance/reach < N . normal,   (d . normal)^2 < 1 - (distance/reach)^2.
-/// Of stiff bodies, which press little, hardly a face or an edge is left to be looked at.
+/// Two cores between which there is a slab: thick `distance`, across the unit `normal` from a to b. What presses over a
+/// face of normal N is nearer than `reach` along N, and farther than the slab is thick along `normal`:
+///   distance/reach < N . normal.
+/// Across an edge of b it is so too, but up to the line of that edge, which may be met beyond its end by the reach
+/// times the tangent of the angle theta between both edges:
+///   angle of b's edge to the slab < theta + arccos(distance/reach cos(theta)) <= 2 theta + arccos(distance/reach),
+/// and of a's edge theta more. Of stiff bodies, which press little, few faces and edges are left to be looked at.
 struct Slab {
     Vec3 normal;
     double distance, reach;
 
     GF_FN Slab seen_from_b() const { return {-normal, distance, reach}; }
-    GF_FN double steepest2() const { return 1.0 - distance * distance / (reach * reach); }
+    /// Squared sine of the angle to the slab above which no edge of b can be in contact, and none of a.
+    GF_FN double steepest2_of_b() const { return steepest2(2.0); }
+    GF_FN double steepest2_of_a() const { return steepest2(3.0); }
+    GF_FN double steepest2(double thetas) const
+    {
+        const double share = distance / reach;
+        const double s = std::sqrt(1.0 - share * share) + thetas * std::sqrt(crossing_sine2);  // >= sine of the sum
+        return s * s;
+    }
 };
 
 /// The faces of a body that may be in contact: those that look into the slab and are at the closest point.
@@ -112,8 +123,7 @@ struct PlacedEdge {
     double length;
 };
 
-/// Edges of a body that reach to within `depth` of the slab, and are not steeper to it than those can be that lie
-/// beside one of the other body.
+/// Edges of a body that reach to within `depth` of the slab, and are not steeper to it than given.
 class FacingEdges {
 public:
     int count = 0;
@@ -153,13 +163,6 @@ private:
         PlacedEdge edges_[room];
     };
 };
-
-/// Steepest edges of a that can lie beside those of b.
-GF_FN double steepest2_beside(double steepest2)
-{
-    const double s = std::sqrt(steepest2) + std::sqrt(crossing_sine2);  // of the sum of two angles, or more
-    return s * s;
-}
 
 /// A_ref: of the body with the smaller corners [m^2].
 GF_FN double reference_area(const ContactBody& a, const ContactBody& b)

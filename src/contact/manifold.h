@@ -172,10 +172,10 @@ GF_FN ContactPoint contact_manifold(const ContactBody& a, const ContactBody& b, 
                 if (faces_a[i].bears) lines.add(rod_overlap(body_a, faces_a[i], body_b, radii), 1.0);
             }
         }
-        const double depth = 1.01 * g_p, steepest2 = slab.steepest2();
-        const FacingEdges edges_b(body_b, other_side, at_b, depth, steepest2);
+        const double depth = 1.01 * g_p;
+        const FacingEdges edges_b(body_b, other_side, at_b, depth, slab.steepest2_of_b());
         if (edges_b.count > 0) {
-            const FacingEdges edges_a(body_a, slab, at_a, depth, steepest2_beside(steepest2));
+            const FacingEdges edges_a(body_a, slab, at_a, depth, slab.steepest2_of_a());
             for (int i = 0; i < edges_a.count; ++i) {
                 for (int j = 0; j < edges_b.count; ++j) add_edge_pair(edges_a[i], edges_b[j], radii, lines);
             }

@@ -13,10 +13,18 @@ namespace {
 /// The grip moves on or back as the last two places say (secant rule), at most by this share of what is there.
 constexpr double most_move = 0.3;
 constexpr int most_moves = 30;
-/// A cap that falls with the stress has no potential: there friction remembers each way back, and the grip creeps,
-/// rather less than the last two moves say.
+/// A cap that changes on the way, with the stress or with the closing, has no potential: there friction remembers each
+/// way back, and the grip creeps, rather less than the last two moves say.
 constexpr double near_surface = 3e-3, first_share = 0.4, not_beyond = 0.8, most_overdone = 10.0, most_creep = 0.1;
 constexpr int most_creeps = 100;
+
+bool caps_change(const Model& model, const State& state, const std::vector<int>& interfaces)
+{
+    const InterfaceBonds& f = state.interfaces;
+    return model.fibres_contract || std::any_of(interfaces.begin(), interfaces.end(), [&](int i) {
+               return model.interface_laws[f.law[i]].residual_friction > 0.0 && f.normal_stiffness[i] > 0.0;
+           });
+}
 
 }  // namespace
 
@@ -28,7 +36,7 @@ PullOutPath::Found PullOutPath::event_with_friction(Model& model, State& state, 
 {
     const double wanted = next_damage(mean_damage(state, interfaces));
     soften(model, state, interfaces, 1.0 + overshoot(model, state, interfaces, 1.0, wanted));
-    if (model.fibres_contract) {
+    if (caps_change(model, state, interfaces)) {
         if (!relax(model, state, interrupted)) return Found::not_at_rest;
         return creep_to_softening(model, state, interfaces, interrupted);
     }

@@ -452,12 +452,12 @@ ParallelForces parallel_kernel(const Model& model, State& state, double dt, Devi
 }
 
 /// Histories for the faces that were found to need one, in the order of the faces.
-void begin_histories(const Model& model, State& state, double dt, Device d)
+void evaluate_those_that_begin(const Model& model, State& state, double dt, Device d)
 {
     const InterfaceBonds& f = state.interfaces;
     const Buffer<std::int32_t> list = select(d, f.size(), BeginsHistory{f.history.read(d)});
     if (list.empty()) return;
-    for (const std::int32_t i : list.host()) begin_history(state, i);
+    begin_histories(state, list.host());
     parallel_for(d, list.size(), EvaluateAgain{interface_kernel(model, state, dt, d), list.read(d)});
 }
 
@@ -467,7 +467,7 @@ void bond_forces(const Model& model, State& state, double dt)
 {
     if (state.interfaces.size() > 0) {
         parallel_for(model.device, state.interfaces.size(), interface_kernel(model, state, dt, model.device));
-        begin_histories(model, state, dt, model.device);
+        evaluate_those_that_begin(model, state, dt, model.device);
     }
     if (state.parallels.size() > 0)
         parallel_for(model.device, state.parallels.size(), parallel_kernel(model, state, dt, model.device));
@@ -478,7 +478,7 @@ void bond_forces(const Model& model, State& state, const std::vector<int>& inter
                  const std::vector<int>& parallels, const std::vector<int>& sphere_bonds)
 {
     serial_for(interfaces, interface_kernel(model, state, 0.0, Device::cpu));
-    begin_histories(model, state, 0.0, Device::cpu);
+    evaluate_those_that_begin(model, state, 0.0, Device::cpu);
     serial_for(parallels, parallel_kernel(model, state, 0.0, Device::cpu));
     sphere_bond_forces(model, state, sphere_bonds);
 }

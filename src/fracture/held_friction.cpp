@@ -3,6 +3,9 @@
 
 #include "gpu/parallel.h"
 
+#include <cstdint>
+#include <utility>
+
 namespace grainfrac {
 
 namespace {
@@ -16,6 +19,18 @@ struct PutBack {
     GF_FN void operator()(int i) const { now[i] = i < then.size ? then[i] : T{}; }
 };
 
+/// What retired since then has come to its end, which is not undone.
+struct PutBackWork {
+    static constexpr const char* name = "put friction work back";
+    View<const double> then;
+    View<const std::int32_t> retired;
+    View<double> now;
+    GF_FN void operator()(int i) const
+    {
+        if (retired[i] == 0) now[i] = then[i];
+    }
+};
+
 }  // namespace
 
 HeldFriction::HeldFriction(const State& state)
@@ -27,7 +42,8 @@ void HeldFriction::put_back(Device device, State& state) const
 {
     parallel_for(device, state.histories.size(), PutBack<Vec2>{slip_.read(device), state.histories.slip.write(device)});
     parallel_for(device, friction_work_.size(),
-                 PutBack<double>{friction_work_.read(device), state.interfaces.friction_work.write(device)});
+                 PutBackWork{friction_work_.read(device), std::as_const(state.interfaces).retired.read(device),
+                             state.interfaces.friction_work.write(device)});
 }
 
 }  // namespace grainfrac

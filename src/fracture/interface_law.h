@@ -24,7 +24,7 @@ enum class Softening { brittle, bilinear };
 enum class FailureUnit { unbreakable, point, face };
 enum class MixedMode { benzeggagh_kenane, power };
 
-/// State of one point; see InterfacePoints for units.
+/// State of one point; see PointHistories for units.
 struct InterfacePointState {
     double damage = 0.0;   ///< D [-]
     double onset = 0.0;    ///< lambda_0, 0 before onset [sqrt(J)/m]

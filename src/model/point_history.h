@@ -5,6 +5,8 @@
 #include "fracture/interface_law.h"
 #include "model/state.h"
 
+#include <array>
+
 namespace grainfrac {
 
 /// Of point q (into State::points) of interface i.
@@ -17,19 +19,23 @@ inline InterfacePointState point_state(const State& state, int i, int q)
     return {p.damage[k], p.onset[k], p.failure[k], p.slip[k].x, p.slip[k].y};
 }
 
-/// Interface i gets a history behind those there are, unless it has one.
-inline void begin_history(State& state, int i)
+/// Each of these interfaces gets a history behind those there are, unless it has one.
+template <class Interfaces>
+void begin_histories(State& state, const Interfaces& interfaces)
 {
     InterfaceBonds& f = state.interfaces;
-    if (f.history[i] >= 0) return;
-    const int first = state.histories.size(), n = f.point_begin[i + 1] - f.point_begin[i];
-    f.history.at(i) = first;
-    state.histories.for_each_array([&](const char*, auto& array) { array.extend(first + n); });
+    int n = state.histories.size();
+    for (const int i : interfaces) {
+        if (f.history[i] >= 0) continue;
+        f.history.at(i) = n;
+        n += f.point_begin[i + 1] - f.point_begin[i];
+    }
+    state.histories.for_each_array([n](const char*, auto& array) { array.extend(n); });
 }
 
 inline void set_point_state(State& state, int i, int q, const InterfacePointState& s)
 {
-    begin_history(state, i);
+    begin_histories(state, std::array{i});
     PointHistories& p = state.histories;
     const int k = state.interfaces.history[i] + q - state.interfaces.point_begin[i];
     p.damage.at(k) = s.damage;

@@ -72,7 +72,7 @@ std::string contacts_problem(const State& state)
 }
 
 /// Entries of tables that are not there.
-std::string tables_problem(const State& state)
+std::string tables_problem(const Model& model, const State& state)
 {
     const InterfaceBonds& f = state.interfaces;
     for (int i = 0; i < f.size(); ++i) {
@@ -82,6 +82,14 @@ std::string tables_problem(const State& state)
     const SphereBonds& s = state.sphere_bonds;
     for (int i = 0; i < s.size(); ++i) {
         if (s.kind[i] < 0 || s.kind[i] >= s.kinds.size()) return fmt::format("sphere bond {}: is of no kind", i);
+        if (s.law[i] < 0 || s.law[i] >= model.sphere_bond_laws.size())
+            return fmt::format("sphere bond {}: has no law", i);
+        const SphereBondLaw law = model.sphere_bond_laws[s.law[i]];
+        const bool history = !s.shear_force.empty() && !s.moment.empty() && !s.twist.empty() && !s.normal.empty();
+        if (law.incremental ? !history : s.axis_a.empty())
+            return fmt::format("sphere bond {}: lacks what its law needs", i);
+        if (law.damping > 0.0 && (s.viscous_force.empty() || s.viscous_moment.empty()))
+            return fmt::format("sphere bond {}: lacks what its dashpots need", i);
     }
     return {};
 }
@@ -121,7 +129,7 @@ std::string why_not_valid(const Model& model, const State& state)
     if (auto why = bonds_problem("parallel bond", state.parallels, state.bodies.size()); !why.empty()) return why;
     if (auto why = bonds_problem("sphere bond", state.sphere_bonds, state.bodies.size()); !why.empty()) return why;
     if (auto why = contacts_problem(state); !why.empty()) return why;
-    if (auto why = tables_problem(state); !why.empty()) return why;
+    if (auto why = tables_problem(model, state); !why.empty()) return why;
     for (const double damage : state.histories.damage.host()) {
         if (!(damage >= 0.0 && damage <= 1.0)) return fmt::format("an interface point has a damage of {}", damage);
     }

@@ -153,7 +153,7 @@ TEST_CASE("energies do not go with the contacts that leave the list")
 TEST_CASE("points have a history where a face comes near to damage, and are the same without one till then")
 {
     Assembly few = three_blocks(), all = three_blocks();
-    for (int i = 0; i < 2; ++i) begin_history(all.state, i);
+    begin_histories(all.state, std::array{0, 1});
     for (int k = 0; k <= 400; ++k) {
         pull(few, k);
         pull(all, k);

@@ -146,6 +146,31 @@ Slope slope_of(Assembly& a, double h)
 
 }  // namespace
 
+// A cube's edge begins over another's edge and rises from there, at a distance of the corner that stays the same. What
+// is looked at changes on the way; the potential may not.
+TEST_CASE("manifold: an edge that rises from another has a potential without jumps")
+{
+    const double rho = 0.05, half = 0.5 - rho, radii = 2 * rho, depth = 3e-3 * radii;
+    const Quat on_edge = from_axis_angle({1, 0, 0}, 0.25 * std::numbers::pi);
+    Assembly a = cubes({{0, 0, 0}, {0, 0, 0}});
+    turn(a.state, 0, on_edge);
+    const Vec3 corner{0, 0, half * std::sqrt(2.0) + radii - depth};
+    constexpr int steps = 20000;
+    std::vector<double> U;
+    for (int k = 0; k < steps; ++k) {
+        const double rise = (0.5 + 7.0 * k / steps) / 180.0 * std::numbers::pi;
+        const Quat q = from_axis_angle({0, 1, 0}, -rise) * on_edge;
+        a.state.bodies.orientation.host()[1] = normalized(q);
+        a.state.bodies.position.host()[1] =
+            corner - rotate(from_axis_angle({0, 1, 0}, -rise), {-half, 0, -half * std::sqrt(2.0)});
+        U.push_back(between(a, 0, 1).overlap_energy);
+    }
+    double jump = 0.0;
+    for (std::size_t k = 2; k < U.size(); ++k) jump = std::max(jump, std::fabs(U[k] - 2 * U[k - 1] + U[k - 2]));
+    CHECK(U.back() > 0.0);
+    CHECK(jump < 1e-7 * U.back());
+}
+
 // Over either plane a penetration is at most g_p, so U <= (faces + A_ref) g_p^2/2; where it is round-off too, on faces
 // and edges that are parallel but for round-off, anyhow turned in space.
 TEST_CASE("manifold: no more energy and force than the depth allows, down to a penetration of round-off")
